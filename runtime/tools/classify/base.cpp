@@ -121,8 +121,9 @@ std::string uriOf(const std::filesystem::path& file, const std::string& query) {
   return uri + query;
 }
 
-/// Opens a database for reading. If the file is writable, SQLite replays the log of a killed writer. Otherwise the file
-/// is opened as immutable, because SQLite would create its own files beside it.
+/// Opens a database for reading. If the file is writable, SQLite replays the write-ahead log that a killed process may
+/// have left. Otherwise the file is opened as immutable, so that SQLite does not try to create files beside the
+/// database.
 Database openForReading(const std::filesystem::path& file, int& code) {
   const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
   if (access(file.c_str(), W_OK) == 0 && access(folder.c_str(), W_OK) == 0) {
@@ -137,7 +138,8 @@ std::optional<int64_t> pragma(const Database& database, const char* text) {
   return statement.whole(0);
 }
 
-/// The reason why SQLite or its header rejects the file; nullopt if the file is intact.
+/// The reason why the file cannot be used: SQLite finds it corrupt, or its application id, version or tables are not
+/// those of this program. nullopt if the file is intact.
 std::optional<ReadBase> unsound(const Database& database) {
   const std::optional<int64_t> application = pragma(database, "PRAGMA application_id");
   const std::optional<int64_t> version = pragma(database, "PRAGMA user_version");
@@ -271,8 +273,7 @@ Result<void> writeNew(const std::filesystem::path& file, const MasterSet& set) {
   if (!writer) return writer.error();
   writer->write(bytes.get(), static_cast<size_t>(size));
   if (Result<void> done = writer->commit(); !done) return done;
-  // The mode WAL lets readers and one writer work concurrently. If setting it fails, the database is valid all the
-  // same.
+  // The mode WAL lets readers and one writer work concurrently. If setting the mode fails, the database is still valid.
   if (const Database made = openFile(file.string(), SQLITE_OPEN_READWRITE, code)) {
     execute(made, "PRAGMA journal_mode = WAL");
   }
@@ -310,7 +311,7 @@ ReadBase readBase(const std::filesystem::path& file) {
   int code = SQLITE_OK;
   const Database database = openForReading(file, code);
   if (!database) return failed(code, sqlite3_errstr(code));
-  // One transaction, so that all rows come from the same state of the database.
+  // Read in one transaction, so that all rows come from the same state of the database.
   if (execute(database, "BEGIN") != SQLITE_OK) return failed(database);
   if (std::optional<ReadBase> wrong = unsound(database)) return *wrong;
   return readRows(database);

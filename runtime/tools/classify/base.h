@@ -10,18 +10,18 @@
 
 namespace sgm::masters {
 
-/// Reference histograms for any number of keys, and the limits of each key.
+/// Reference histograms for any number of keys (histogram settings), and the classification limits of each key.
 struct MasterSet {
   std::vector<measure::Master> masters;
   std::vector<measure::MasterLimits> limits;
 
   /// The reference histograms of one key.
   std::vector<measure::Master> of(const measure::MasterKey& key) const;
-  /// The limits of a key; null if the set has none for it.
+  /// The classification limits (maximum distances) of a key; null if the set has no limits for this key.
   const measure::MasterLimits* limitsOf(const measure::MasterKey& key) const;
 };
 
-/// The compiled-in set: built_in_masters.inc, as `sgm masters build --emit` writes it.
+/// The reference histograms compiled into the program: built_in_masters.inc, as `sgm masters build --emit` writes it.
 MasterSet builtInMasters();
 
 /// Why a file cannot be read as a database of reference histograms.
@@ -41,22 +41,22 @@ struct ReadBase {
 /// temporary files that SQLite needs beside an open file, and writes nothing into a write-protected folder.
 ReadBase readBase(const std::filesystem::path& file);
 
-/// Replaces the file's contents by exactly this set. A new file appears completely or not at all. An existing file
-/// changes in one transaction, so a full disk or the process's end leaves its previous contents. Errors: io; bad_input
-/// if the file exists and is not an intact database.
+/// Replaces the file's contents by `set`. A new file appears completely or not at all. An existing file changes in one
+/// transaction, so it keeps its previous contents if the disk is full or the process ends. Errors: io; bad_input if the
+/// file exists and is not an intact database.
 Result<void> writeBase(const std::filesystem::path& file, const MasterSet& set);
 
 /// Checks whether writeBase() could start. Creates the file's folder. Errors: those of writeBase().
 Result<void> checkWritable(const std::filesystem::path& file);
 
-/// The path sgm/masters.db in $XDG_DATA_HOME, or in ~/.local/share if that variable is not set; empty if neither is
-/// known.
+/// The path sgm/masters.db in $XDG_DATA_HOME, or in ~/.local/share if that variable is not set; empty if HOME is not
+/// set either.
 std::filesystem::path defaultBase();
 
 struct OpenedBase {
   MasterSet set;
   std::string from;    ///< path of the database that was read, or "built in"
-  std::string notice;  ///< the damage found and its treatment; empty if the file was intact
+  std::string notice;  ///< message about damage of the file and how it was handled; empty if the file was intact
 };
 /// Opens the user's database. If the file is missing, returns the built-in reference histograms and writes nothing. A
 /// damaged file is renamed to FILE.damaged-1 and so on, and replaced by the built-in set. Errors: io; unsupported for a

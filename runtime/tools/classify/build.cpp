@@ -21,7 +21,7 @@ using Shares = std::vector<double>;
 
 constexpr double kMillion = 1e6;
 
-/// A histogram of a model, and the family of that model.
+/// A histogram of one model, and the family of the model.
 struct Member {
   const Family* family;
   const Shares* shares;

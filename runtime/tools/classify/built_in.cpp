@@ -1,4 +1,4 @@
-// The built-in reference histograms.
+// The reference histograms that are compiled into the program.
 
 #include <array>
 

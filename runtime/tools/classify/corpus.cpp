@@ -53,7 +53,8 @@ rule Tree(h) weight 1 { plant.Spruce(h); }
 rule Tree(h) weight 1 { plant.Broadleaf(h); }
 )sgm";
 
-/// A size of grid cells and of cubes that shows enough of a model at low cost: at most 96 cells along an edge.
+/// Sizes in metres of a grid cell and of the cube that is meshed (0: the whole world): at most 96 cells along an edge,
+/// to show enough of a model at low cost.
 struct Scale {
   double cell = 0, edge = 0;
 };
@@ -70,7 +71,9 @@ struct Kind {
   std::string_view class_name;
   std::span<const Scale> scales;
   std::string_view file;
-  double middle = 0;  ///< width of the middle that excludes the ground around a building, and its border; 0: no limit
+  /// Width in metres of the central part of a finite world that is used, without the ground around a building; 0: no
+  /// limit.
+  double middle = 0;
   std::string_view text = embedded(file);
 };
 constexpr std::array kKinds{
@@ -135,7 +138,7 @@ constexpr auto kFamilies = [] {
   return all;
 }();
 
-/// The box with that edge length centred on a point, lo <= p < hi.
+/// The cube with edge length `edge`, in metres, centred on a point: it contains p if lo <= p < hi.
 IntBox cubeAround(const measure::Point& p, double edge) {
   IntBox cube;
   for (int axis = 0; axis < 3; ++axis) {
@@ -145,7 +148,7 @@ IntBox cubeAround(const measure::Point& p, double edge) {
   return cube;
 }
 
-/// The middle of a box: `wide` metres along x and z, and its full height.
+/// The central part of a box: `wide` metres along x and z, and the full height.
 IntBox middleOf(const IntBox& box, double wide) {
   IntBox middle = box;
   for (const int axis : {0, 2}) {

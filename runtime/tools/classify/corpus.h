@@ -1,5 +1,5 @@
 #pragma once
-// Models of known class: reference histograms are built from them, and classification is tested with them. The models
+// Models of known class, from which reference histograms are built and with which classification is tested. The models
 // are generated from the current samples, and from simple grammars in tests/bench/grammars, which do not change. A
 // model depends only on its family, its seed, and the standard library.
 
@@ -22,8 +22,9 @@ struct Family {
   std::string_view file;  ///< path in samples/grammars, bench/... for tests/bench/grammars, or a description for noise
   std::string_view text;  ///< text of the grammar; empty for noise
   double cell = 0;        ///< edge of a grid cell, metres; for noise, the edge of a quadrangle
-  double edge = 0;        ///< edge of the examined cube, metres; 0: the whole world is examined, which is finite
-  /// Width along x and z, metres, of the middle of a finite world from which cubes are taken; 0: the whole world.
+  double edge = 0;        ///< edge of the meshed cube, metres; 0: the whole world is meshed, which is then finite
+  /// Width in metres, along x and z, of the central part of a finite world in which a cube's centre must lie; 0:
+  /// anywhere.
   double middle = 0;
 };
 std::span<const Family> families();
@@ -38,10 +39,10 @@ class ModelMaker {
  public:
   static Result<ModelMaker> create(const Family& family);
 
-  /// Makes the model of a seed. The seed draws the grammar's parameters from their whole ranges, and is the world's
-  /// seed. If the world is larger than the cube, the model is the part around a steep point of its surface, which the
-  /// seed also chooses. If the model is nearly empty (a sky without a cloud), the seed's next draw is tried. Errors:
-  /// those of meshing; limit if ten draws are empty.
+  /// Makes the model of a seed. The seed determines the world's seed and random values for the grammar's parameters,
+  /// from their whole ranges. If the world is larger than the cube, the model is the part around a random steep point
+  /// of its surface. If the model is nearly empty (a sky without a cloud), another random attempt is made. Errors:
+  /// those of meshing; limit if ten attempts are empty.
   Result<ModelMesh> make(uint64_t seed, Backend& backend, JobSystem& jobs) const;
 
   const Family& family() const { return *family_; }

@@ -20,8 +20,8 @@ bool isThere(const std::string& file) {
   return lstat(file.c_str(), &about) == 0;
 }
 
-/// Renames a damaged file. Returns the new name, or an empty text with errno if it fails. Moves SQLite's log first:
-/// otherwise SQLite would replay that log into the next database.
+/// Renames a damaged database file to FILE.damaged-N. Returns the new name, or an empty text with errno set if renaming
+/// fails. Moves SQLite's write-ahead log first: otherwise SQLite would replay that log into the next database.
 std::string moveAside(const std::string& file) {
   for (int i = 1; i <= kMaxDamaged; ++i) {
     const std::string aside = file + ".damaged-" + std::to_string(i);

@@ -24,7 +24,7 @@ using measure::MasterLimits;
 constexpr size_t kLongestClass = 64, kLongestName = 256;
 constexpr double kMaxLength = 1e9;
 
-/// Reads a set until the first problem; further problems are not reported.
+/// Reads a MasterSet from JSON. Stops at the first problem.
 class SetReader {
  public:
   ReadSet run(const JsonValue& json) {
@@ -175,7 +175,7 @@ class SetReader {
       if (!fits) fail("a number from 0 to 1 is expected here", at + "/" + std::to_string(i));
       shares.push_back(items[i].number);
     }
-    // The same condition as for histograms in a database.
+    // The reader of the database requires the same tolerance, so it accepts every histogram that is accepted here.
     if (!(std::fabs(std::accumulate(shares.begin(), shares.end(), 0.0) - 1) < 1e-9))
       fail("these shares do not add up to 1", at);
     return shares;
@@ -195,7 +195,8 @@ class SetReader {
   bool wrong_ = false;
   std::string what_, pointer_;
   std::set<std::tuple<std::ptrdiff_t, std::string, std::string>> names_;
-  std::set<std::ptrdiff_t> with_masters_;  ///< indices of the keys for which a reference histogram was read
+  /// Indices in MasterSet::limits of the keys for which a reference histogram was read.
+  std::set<std::ptrdiff_t> with_masters_;
 };
 
 }  // namespace

@@ -9,12 +9,12 @@
 
 namespace sgm::masters {
 
-/// Limits of the text's bytes, the keys, and the histograms. Each key also has the limits of binsOf() and
-/// checkHistogram().
+/// Maximum numbers of bytes of the JSON text, of keys, and of reference histograms. Each key and its histograms must
+/// also be valid for binsOf() and checkHistogram().
 inline constexpr size_t kMaxSetBytes = size_t{4} << 20, kMaxSetKeys = 256, kMaxSetMasters = 10'000;
 
 struct ReadSet {
-  std::optional<MasterSet> set;  ///< set if there is no problem
+  std::optional<MasterSet> set;  ///< set if the whole text is valid
   bool malformed = false;        ///< the text is not JSON
   std::string what;     ///< the first problem, in one line; without its position in the text if the JSON is well-formed
   std::string pointer;  ///< JSON pointer to the wrong value (RFC 6901); "" if the text as a whole is wrong

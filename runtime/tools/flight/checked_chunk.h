@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a drawn chunk, as the checks of the surface need them.
+// The parts of a drawn chunk mesh (body and seams), in the form in which the surface is checked.
 
 #include <sgm/sgm.h>
 
@@ -19,24 +19,25 @@ namespace sgm::cli {
 
 /// The drawn seams of a chunk, and its coarser neighbours.
 struct DrawnParts {
-  uint32_t seams = 0;         ///< faces whose seams are drawn, bit (1u << sgm_face)
-  Neighbourhood coarser = 0;  ///< blocks around it that belong to coarser chunks, as in sgm_chunk_request; those across
-                              ///< the faces in `seams` always count as coarser
+  uint32_t seams = 0;  ///< bit (1u << sgm_face) is set if the seam over that face of the chunk is drawn
+  /// Neighbouring chunk-sized cubes (blocks) that belong to coarser chunks, as in sgm_chunk_request; blocks across the
+  /// faces in `seams` always count as coarser.
+  Neighbourhood coarser = 0;
   friend bool operator==(const DrawnParts&, const DrawnParts&) = default;
 };
 
-/// Counts of undirected edges, as in FrameReport.
+/// Numbers of undirected edges: all, open, non-manifold; defined as in FrameReport.
 struct EdgeCounts {
   uint64_t edges = 0, open = 0, nonmanifold = 0;
 };
 
-/// Faults of a part's triangles by themselves.
+/// Numbers of faulty triangles, and of faulty pairs of triangles, within one part.
 struct TriangleCounts {
   uint64_t degenerate = 0, flat = 0;
   PairCounts pairs;
 };
 
-/// A body or a seam.
+/// One part of a chunk mesh: its body, or one of its seams, each of which joins the body to a coarser neighbour.
 struct CheckedPart {
   std::vector<VertexPlace> vertices;
   std::vector<uint32_t> indices;  ///< three per triangle: indices into `vertices`
@@ -49,33 +50,36 @@ struct CheckedPart {
 struct CheckedChunk {
   ChunkGrid grid;
   DrawnParts drawn;
-  std::array<CheckedPart, 1 + SGM_FACE_COUNT> parts;  ///< the body, then the seams
+  std::array<CheckedPart, 1 + SGM_FACE_COUNT> parts;  ///< index 0: the body; then the seams, in the order of sgm_face
 };
 
 using CheckedChunks = std::map<ChunkKey, CheckedChunk>;
 
 ChunkKey keyOf(const sgm_chunk_key& key);
 
-/// Returns an error (invalid_argument) about the mesh of a chunk. what: the end of the sentence.
+/// Makes an error (invalid_argument) about the mesh of a chunk. what: end of the message's sentence, such as "is not
+/// drawn".
 Error malformed(const ChunkKey& key, const std::string& what);
 
-/// Copies all parts of a mesh; none of them is drawn yet. Error: invalid_argument if the mesh is malformed.
+/// Copies all parts of a chunk mesh and marks none as drawn. Error: invalid_argument if the mesh is malformed.
 Result<CheckedChunk> copyChunk(const sgm_mesh_view& mesh);
 
-/// Returns the seam with this number of a part; the default for a body.
+/// Returns the seam that is part `number` of a chunk; a default value for the body (number 0).
 SeamOf seamOf(const DrawnParts& drawn, size_t number);
 
-/// Calls visit(part, its number) for every drawn part.
+/// Calls visit(part, number) for the body and every drawn seam; number: index in chunk.parts.
 template <class ChunkOrConst, class Visit>
 void forEachDrawn(ChunkOrConst& chunk, const Visit& visit) {
   for (size_t number = 0; number < chunk.parts.size(); ++number)
     if (number == 0 || (chunk.drawn.seams >> (number - 1) & 1) != 0) visit(chunk.parts[number], number);
 }
 
-/// Finds for every vertex of a body the lowest vertex number on the same edge: its own, unless the mesh has duplicates.
+/// Sets first[v], for every vertex v of a body, to the lowest vertex number on the same grid edge: v itself, unless the
+/// mesh contains duplicate vertices.
 void numberByEdge(const CheckedPart& part, std::vector<uint32_t>& first);
 
-/// Counts faults of triangles. ids: of the part's vertices, equal for identical vertices.
+/// Counts the faults of the part's triangles. number: index of the part in its chunk. ids: one id for each vertex of
+/// the part, equal for identical vertices.
 TriangleCounts countTriangles(const CheckedPart& part, size_t number, std::span<const uint32_t> ids,
                               PairScratch& scratch);
 

@@ -9,18 +9,19 @@
 namespace sgm::cli {
 namespace {
 
-constexpr size_t kColumns = 6, kRows = 4;  // rays over a picture; none passes through its exact centre
-constexpr double kViewMetres = 256;        // length of the rays; farther surfaces take up little of a picture
+// Numbers of rays across a picture and down it; no ray passes through the exact centre.
+constexpr size_t kColumns = 6, kRows = 4;
+constexpr double kViewMetres = 256;  // length of the view rays; farther surfaces cover little of a picture
 constexpr double kGoldenAngle = 2.399963229728653;
-/// Length of upward rays that must hit nothing to reach the sky: in an open world; in an open world whose cells are
-/// stacked without end; and in rock, whose caves may be high. The length is limited because the world must be derived
-/// along the ray.
+/// Length of upward rays that must hit nothing to count as reaching the sky: in an open world; in an open world with
+/// endlessly stacked grammar cells; in rock, whose caves may be high. The lengths are limited because the world must be
+/// derived along the ray.
 constexpr double kSkyMetres = 256, kEndlessSkyMetres = 128, kRockSkyMetres = 1024;
-/// Factors of kEnoughDaylight beyond which a value is clearly on the other side of the threshold.
+/// Daylight is clearly above or below the threshold kEnoughDaylight if it differs by more than these factors.
 constexpr double kClearlyMore = 1.5, kClearlyLess = 0.5;
 
-/// Five directions: straight up, and four around at 30 degrees above the horizon. `turn` rotates the four by an angle
-/// that differs from place to place.
+/// Five directions: straight up, and four at 30 degrees above the horizon, spaced by 90 degrees. `turn` rotates these
+/// four about the vertical; the caller varies it between places.
 std::array<Metres3, 5> upwards(double turn) {
   std::array<Metres3, 5> directions{Metres3{0, 1, 0}};
   const double height = glm::radians(30.0);
@@ -35,7 +36,7 @@ bool letsThrough(const LitWorld& world, const RayEnd& end) {
   return end.material < world.translucent.size() && world.translucent[end.material];
 }
 
-/// The share of the upward directions from which light reaches a place.
+/// The share of the five upward directions from which light of the sky reaches a place.
 Result<double> openness(const LitWorld& world, const Metres3& place, double turn) {
   const std::array<Metres3, 5> directions = upwards(turn);
   int open = 0;
@@ -89,8 +90,8 @@ Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera) {
     sum += *open;
   }
   std::ranges::sort(distances);
-  // The depth is the mean of the median and the upper quartile: many rays hit near surfaces that frame the view, but
-  // the surfaces behind them matter.
+  // The depth is the mean of the median and the upper quartile of the distances: many rays hit near surfaces that frame
+  // the view, but the farther surfaces matter.
   const double depth = (distances[distances.size() / 2] + distances[distances.size() * 3 / 4]) / 2;
   return Outlook{sum / static_cast<double>(distances.size()), false, depth};
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Decides whether the sun or a lamp lights the places that a camera sees, by rays cast through the field itself. Chunks
-// need not be meshed for this.
+// Decides whether pictures from a camera should be lit by the sun or by a lamp, by casting rays through the field. The
+// chunks need not be meshed for this.
 
 #include <functional>
 #include <optional>
@@ -15,10 +15,10 @@
 
 namespace sgm::cli {
 
-/// The first solid surface on a ray.
+/// The first hit of a ray with a solid surface.
 struct RayEnd {
   double distance = 0;  ///< metres from the ray's start
-  Metres3 normal{0};    ///< points out of the solid
+  Metres3 normal{0};    ///< unit normal, points out of the solid
   uint32_t material = 0;
   bool inside = false;  ///< true if the ray starts in the solid
 };
@@ -27,63 +27,63 @@ struct RayEnd {
 using CastRay =
     std::function<Result<std::optional<RayEnd>>(const Metres3& from, const Metres3& direction, double metres)>;
 
-/// The properties of a world from which its light is computed.
+/// The properties of a world that determine its light.
 struct LitWorld {
   CastRay cast;
   bool roofless = true;           ///< false if endless rock lies above everything
-  double sky_metres = 256;        ///< a ray upwards that hits nothing within this distance counts as reaching the sky
-  std::vector<bool> translucent;  ///< by material index: whether the material transmits light, as glass and clouds do
-  /// Distance by which a ray starts off its surface, so that it does not hit that surface.
+  double sky_metres = 256;        ///< length of an upward ray that must hit nothing to count as reaching the sky
+  std::vector<bool> translucent;  ///< for each material index: whether it transmits light, as glass and clouds do
+  /// Distance from a surface at which rays from that surface start, so that they do not hit it again.
   double clearance_metres = 1.0 / 256;
 
-  /// The properties for a kind of domain. solid: the domain is solid outside its hollows. endless_height: its cells are
-  /// stacked without end.
+  /// The properties of a world with a kind of domain. solid: the domain is rock with hollows. endless_height: its
+  /// grammar cells are stacked without end.
   static LitWorld of(bool solid, bool endless_height);
 };
 
 /// Whether the material with this name transmits light.
 bool isTranslucent(std::string_view material);
 
-/// Position and view of a camera in the world, metres.
+/// Position, direction and field of view of a camera in the world. Lengths are in metres.
 struct CameraPlace {
   Metres3 position{0};
   Metres3 direction{0, 0, -1};  ///< not 0
-  double fov_degrees = 68;      ///< across the picture's height
-  double aspect = 16.0 / 9;     ///< the picture's width by its height
+  double fov_degrees = 68;      ///< vertical field of view
+  double aspect = 16.0 / 9;     ///< width of the picture divided by its height
 };
 
-/// The quantities that decide on the light of a camera's picture.
+/// The quantities that determine how a picture from a camera is lit.
 struct Outlook {
-  /// Share of the sky, 0..1, that is visible from the surfaces in the picture: for rays spread evenly over the picture,
-  /// the mean share of five upward directions that are unobstructed at the ray's end.
+  /// Share of the sky, 0..1, that is visible from the surfaces in the picture. Rays are spread evenly over the picture;
+  /// at the end of each ray, five upward directions are tested, and the share of unobstructed directions is averaged
+  /// over all rays.
   double daylight = 0;
-  bool buried = false;  ///< the camera is in the solid; the other members are then not set
+  bool buried = false;  ///< true if the camera is inside a solid; the other members are then not set
   double depth = 1;     ///< typical distance in metres to the visible surfaces, at most 256
 };
 
 /// Computes the outlook of a camera. Errors: those of casting rays.
 Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera);
 
-/// The light named "sun", "lamp" or "none"; nullopt for other names, such as "auto".
+/// The light with this name: "sun", "lamp" or "none"; nullopt for other names, such as "auto".
 std::optional<Light> lightNamed(std::string_view name);
 const char* lightName(Light light);
 
-/// Daylight (Outlook::daylight) from which on pictures are lit by the sun.
+/// Minimum of Outlook::daylight for which pictures are lit by the sun.
 inline constexpr double kEnoughDaylight = 0.03;
-/// Light::sun for kEnoughDaylight or more, otherwise Light::lamp.
+/// Returns Light::sun if daylight is at least kEnoughDaylight, otherwise Light::lamp.
 Light lightAt(double daylight);
 
-/// Chooses the light of successive pictures without flicker: the light changes only if two successive values of
-/// daylight are clearly on the other side of the threshold.
+/// Chooses the light of successive pictures without flicker: the light changes only after two successive values of
+/// daylight that are clearly on the other side of kEnoughDaylight.
 class SteadyLight {
  public:
-  /// Returns the light for the next picture. anew: the camera has come from far away, so its previous values do not
-  /// count.
+  /// Returns the light for the next picture. anew: the camera has jumped, so earlier values of daylight do not count.
   Light next(double daylight, bool anew);
 
  private:
   std::optional<Light> light_;
-  bool doubted_ = false;  ///< the previous value of daylight was clearly on the other side of the threshold
+  bool doubted_ = false;  ///< the previous value of daylight was clearly on the other side of kEnoughDaylight
 };
 
 }  // namespace sgm::cli

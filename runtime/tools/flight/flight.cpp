@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kFramesASecond = 60;
 constexpr auto kFrame = std::chrono::microseconds(16667);
-/// Without pacing, the next frame begins when the world has made its next plan, or after this time.
+/// Without pacing, the next frame begins when the world has made its next plan, or at the latest after this time.
 constexpr auto kLongestWait = std::chrono::milliseconds(4);
 constexpr auto kBetweenLooksForNews = std::chrono::microseconds(100);
 constexpr auto kBetweenLooksWhileStanding = std::chrono::milliseconds(4);
@@ -25,10 +25,11 @@ constexpr uint64_t kWholeCheckEvery = 500;
 constexpr int kRaysAFrame = 6;
 constexpr uint64_t kRaysToWalk = 48;
 constexpr uint64_t kFramesToForget = 2;
-/// Maximum number of frames to wait until all digs are drawn, before waiting until the world is idle.
+/// Maximum number of frames that are drawn at the end until all digs are visible; then the flight waits until the world
+/// is idle.
 constexpr int kFramesToDraw = 600;
-/// Maximum number of attempts to wait for idleness: the world may need memory of meshes that the engine holds until it
-/// polls.
+/// Maximum number of attempts to wait until the world is idle. An attempt may fail because the world needs memory that
+/// is only freed when the engine polls.
 constexpr int kWaits = 16;
 
 double threadMilliseconds() {
@@ -41,7 +42,7 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// The n-th direction of an infinite sequence whose first elements, however many, cover the sphere evenly.
+/// The n-th direction of an infinite sequence. For every k, the first k directions cover the sphere evenly.
 Metres3 directionOf(uint64_t n) {
   const double index = static_cast<double>(n);
   const double z = 1 - 2 * std::fmod((index + 0.5) * 0.6180339887498949, 1.0);
@@ -50,12 +51,12 @@ Metres3 directionOf(uint64_t n) {
   return {side * std::cos(turn), z, side * std::sin(turn)};
 }
 
-/// Determines the viewer's place in each frame.
+/// Computes the viewer's position in each frame from the path, the speed and the teleports.
 class Course {
  public:
   struct Stop {
     FlightPlace place;
-    bool leapt = false;  ///< the viewer has been teleported to this place
+    bool leapt = false;  ///< true if the viewer is teleported to this place
   };
 
   Course(FlightPath& path, const FlightSettings& settings)
@@ -69,7 +70,7 @@ class Course {
     if (leg_ != 0 && frame_ > 0 && frame_ % leg_ == 0 && teleported_ < teleports_) {
       if (Result<void> moved = path_.teleport(++teleported_); !moved) return moved.error();
       flown_ = 0;
-      // Stand still for some frames, so that only the teleport makes pending work obsolete, not the viewer's motion.
+      // Stand still for some frames, so that pending work becomes obsolete only by the teleport, not by later motion.
       stands_ = kFramesToForget;
       stop.leapt = true;
     }
@@ -87,10 +88,10 @@ class Course {
 
  private:
   FlightPath& path_;
-  const double step_;  ///< metres that the viewer moves in each frame
+  const double step_;  ///< distance in metres that the viewer moves per frame
   const uint64_t leg_, teleports_;
   uint64_t frame_ = 0, teleported_ = 0, stands_ = 0;
-  double flown_ = 0;  ///< metres along the path so far
+  double flown_ = 0;  ///< distance in metres along the path so far
 };
 
 class Flight {
@@ -144,7 +145,7 @@ class Flight {
     return {};
   }
 
-  /// Waits until the world has changed: frames in faster succession would all draw the same picture.
+  /// Waits until the world has changed: earlier frames would all draw the same picture.
   Result<void> awaitNews() const {
     const Clock::time_point latest = Clock::now() + kLongestWait;
     sgm_error error = SGM_ERROR_INIT;
@@ -156,7 +157,7 @@ class Flight {
     return {};
   }
 
-  /// Records how many requests were pending for the previous place.
+  /// Handles a teleport: records how many requests are pending for the previous place.
   void leap(uint64_t frame) {
     teleport_frame_ = frame;
     arrived_ = false;
@@ -180,8 +181,8 @@ class Flight {
     return engine_.checkFrame(frame % kWholeCheckEvery == kWholeCheckEvery - 1, report_.checked);
   }
 
-  /// Draws frames without moving, until the new place is drawn or nothing changes any more, for example because memory
-  /// for meshes is short.
+  /// Draws frames without moving until the surroundings are drawn, or until nothing changes any more, for example
+  /// because memory for meshes is short.
   Result<void> standUntilDrawn() {
     Clock::time_point changed = Clock::now();
     for (uint64_t made = 0; !arrived_ && Clock::now() < changed + kLongestStill;) {
@@ -199,7 +200,7 @@ class Flight {
     return {};
   }
 
-  /// Draws one frame. Returns its time in milliseconds.
+  /// Simulates one frame. Returns its CPU time on this thread, in milliseconds.
   Result<double> drawFrame() {
     sgm_viewer viewer = SGM_VIEWER_INIT;
     for (int axis = 0; axis < 3; ++axis) {
@@ -230,7 +231,7 @@ class Flight {
     return time;
   }
 
-  /// Counts the visible surfaces nearby, and how many of them are drawn at level 0.
+  /// Casts rays to count the visible surfaces nearby, and how many of them are drawn at level 0.
   Result<void> look(uint64_t frame) {
     if (report_.walkable_ms < 0) {
       const double now = since(start_);
@@ -239,7 +240,7 @@ class Flight {
       if (*walkable) report_.walkable_ms = now;
       return {};
     }
-    // After a teleport, no surface can be drawn yet: these frames do not count.
+    // In the first second after a teleport, surfaces cannot be drawn yet: these frames do not count.
     if (teleport_frame_ && frame < *teleport_frame_ + static_cast<uint64_t>(kFramesASecond)) return {};
     const Result<Observation> sight = see(settings_.finest_distance, kRaysAFrame);
     if (!sight) return sight.error();
@@ -250,8 +251,8 @@ class Flight {
     return {};
   }
 
-  /// Whether the surroundings are walkable (kWalkableDistance). Rays cost far more time than frames, so the next call
-  /// begins with the ray that failed: the test must not take time from the meshing that it measures.
+  /// Whether the surroundings are walkable (kWalkableDistance). Casting rays takes far longer than a frame and competes
+  /// with the meshing that is being timed, so each call begins with the ray that failed in the previous call.
   Result<bool> isWalkable() {
     if (!engine_.collidesNear(place_.position, kWalkableDistance)) return false;
     bool seen = false;
@@ -281,7 +282,8 @@ class Flight {
   }
 
   enum class Surface { none, coarse, finest };
-  /// Inside a solid, such as one that was added around the viewer, nothing is visible.
+  /// Casts a ray and classifies the surface that it hits. If the viewer is inside a solid, for example an added lump,
+  /// the result is Surface::none.
   Result<Surface> surfaceAlong(uint64_t direction_number, double distance) const {
     const Metres3 direction = directionOf(direction_number);
     sgm_ray_desc ray = SGM_RAY_DESC_INIT;
@@ -310,7 +312,7 @@ class Flight {
   }
 
   Result<void> rest() {
-    // Draw more frames, so that the last digs are measured like the others.
+    // Draw more frames until the last digs (edits) are visible, so that the report includes the time that this takes.
     for (int frame = 0; frame < kFramesToDraw && digger_ && digger_->waits(); ++frame) {
       std::this_thread::sleep_for(kFrame);
       if (const Result<double> drawn = drawFrame(); !drawn) return drawn.error();
@@ -336,14 +338,14 @@ class Flight {
   FlightEngine engine_;
   std::optional<FlightDigger> digger_;
   FlightReport report_;
-  std::vector<Course::Stop> planned_;             ///< all stops of a paced flight, planned ahead
-  FlightPlace place_;                             ///< place of the current frame
-  sgm_world_stats stats_ = SGM_WORLD_STATS_INIT;  ///< statistics after the current frame
+  std::vector<Course::Stop> planned_;             ///< viewer positions of all frames of a paced flight, planned ahead
+  FlightPlace place_;                             ///< viewer position in the current frame
+  sgm_world_stats stats_ = SGM_WORLD_STATS_INIT;  ///< statistics of the world after the current frame
   Clock::time_point start_;
   std::vector<double> times_;
   uint64_t rays_ = 0, coarse_ray_ = 0, commits_ = 0;
   std::optional<uint64_t> teleport_frame_;
-  bool arrived_ = false;  ///< all nearby surfaces have been drawn since the beginning or the last teleport
+  bool arrived_ = false;  ///< whether all nearby surfaces have been drawn since the start or the last teleport
 };
 
 }  // namespace

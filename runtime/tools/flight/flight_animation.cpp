@@ -17,7 +17,7 @@ Result<sgm_parameter_info> findParameter(const sgm_grammar* grammar, const sgm_p
   for (uint32_t i = 0; i < sgm_grammar_parameter_count(grammar); ++i) {
     if (sgm_grammar_parameter(grammar, i, &info) == SGM_OK && name == info.name) return info;
   }
-  // sgm_parameters_get fails too; its message suggests the nearest name.
+  // The parameter does not exist: call sgm_parameters_get for its error message, which suggests the nearest name.
   double value = 0;
   sgm_error error = SGM_ERROR_INIT;
   static_cast<void>(sgm_parameters_get(parameters, name.c_str(), &value, &error));
@@ -70,7 +70,7 @@ Result<void> FlightAnimation::show(sgm_world* world, double seconds) {
   sgm_field* field = nullptr;
   if (sgm_field_create(runtime_, &field_, &field, &error) != SGM_OK) return errorOf(error);
   const sgm_result set = sgm_world_set_field(world, field, &error);
-  // The world holds its own reference, so the field can be released here.
+  // The world holds its own reference to the field, so the field can be released here.
   static_cast<void>(sgm_field_destroy(field));
   if (set != SGM_OK) return errorOf(error);
   ++fields_;

@@ -11,20 +11,21 @@
 
 namespace sgm::cli {
 
-/// Moves each parameter through its range and back in ten seconds, with ten updates a second. Not thread-safe.
+/// Moves each animated parameter through its range and back within ten seconds, with ten updates per second. Not
+/// thread-safe.
 class FlightAnimation {
  public:
-  /// Animates the parameters with these names, or all that the grammar declares animated if there are no names. field:
-  /// the world's current field, with the initial parameters. All arguments must outlive the animation. Errors:
-  /// invalid_argument if there is no parameter to animate, or a parameter has no range.
+  /// names: the parameters to animate; empty: all that the grammar declares animated. field: description of the world's
+  /// current field, with the initial parameters. All arguments must outlive the animation. Errors: invalid_argument if
+  /// there is no parameter to animate, or a parameter has no range.
   static Result<FlightAnimation> of(sgm_runtime* runtime, const sgm_field_desc& field, sgm_parameters* parameters,
                                     const std::vector<std::string>& names);
 
-  /// Passes the next field to the world if it is due. Errors: those of the public interface.
+  /// Passes a field with new parameter values to the world if an update is due. Errors: those of the public interface.
   Result<void> show(sgm_world* world, double seconds);
 
   uint64_t fields() const { return fields_; }
-  /// Number of the passed fields that were drawn, as observed by show().
+  /// Number of fields that were passed to the world and have been drawn since, as far as show() has observed.
   uint64_t drawn() const { return drawn_; }
 
  private:

@@ -20,8 +20,8 @@ std::vector<Metres3> splinePoints(std::span<const Metres3> controls, double spac
                                   const std::optional<Metres3>& start) {
   const size_t count = controls.size(), segments = closed ? count : count - 1;
   const auto control = [&](size_t i) { return controls[i % count]; };
-  // Velocities at a control point for unit speed: the mean of the slopes on both sides; the nearer control has more
-  // weight.
+  // Velocity at a control point for unit speed: the weighted mean of the slopes on both sides; the slope towards the
+  // nearer neighbour has more weight.
   const auto velocity = [&](size_t i) {
     const bool first = i == 0 && !closed, last = i == count - 1 && !closed;
     if (first && start) return unit(*start);
@@ -36,7 +36,7 @@ std::vector<Metres3> splinePoints(std::span<const Metres3> controls, double spac
     const Metres3 a = control(i), b = control(i + 1);
     const double length = glm::length(b - a);
     const Metres3 va = length * velocity(i), vb = length * velocity((i + 1) % count);
-    // A spline is at most about half longer than its chord.
+    // A spline segment is at most about half longer than its chord, so twice the chord is enough samples.
     const auto steps = static_cast<size_t>(std::ceil(2 * length / spacing));
     for (size_t step = 1; step <= steps; ++step) {
       const double t = static_cast<double>(step) / static_cast<double>(steps), u = 1 - t;
@@ -77,7 +77,7 @@ FlightPlace FlightCurve::at(double s) const {
   const double t = along - static_cast<double>(i);
   place.position = places_[i] + t * (places_[next] - places_[i]);
   const Metres3 direction = unit((1 - t) * slope(i) + t * slope(next));
-  // Where a curve reverses its direction, the interpolated direction is zero; keep the default.
+  // Where the curve reverses its direction, the interpolated direction is zero: keep the default direction.
   if (glm::length(direction) > 0) place.direction = direction;
   return place;
 }

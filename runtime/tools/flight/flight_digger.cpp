@@ -11,15 +11,15 @@ namespace sgm::cli {
 namespace {
 
 constexpr uint64_t kFrameRate = 60;
-constexpr double kReach = 24;  // metres, maximum distance from the viewer to a dig
+constexpr double kReach = 24;  // maximum distance from the viewer to a dig, metres
 constexpr int kGlances = 6;
 constexpr int32_t kHole = 2 * SGM_UNITS_PER_METRE, kLump = SGM_UNITS_PER_METRE;
-constexpr double kRoomForLump = 4;  // metres, minimum distance from the viewer to the surface on which a lump is added
+constexpr double kRoomForLump = 4;  // minimum distance of the viewer from a surface to which a lump is added, metres
 constexpr size_t kUndoable = 64;
-constexpr double kCuts = 0.75, kAdds = 0.15;  // shares of the digs; the rest are undos
+constexpr double kCuts = 0.75, kAdds = 0.15;  // shares of the digs that cut and that add; the rest are undos
 constexpr uint64_t kDrawsAGlance = 2;
 
-// Numbers of the random draws for a dig; the draws for the glances (search rays) follow.
+// Indices of the random numbers that determine a dig; from kGlance on, they determine the directions of search rays.
 enum Draw : uint64_t { kKind, kAhead, kShape, kSmooth, kWhich, kGlance };
 
 Metres3 anyWay(const PathKey& key, uint64_t draw) {
@@ -28,7 +28,8 @@ Metres3 anyWay(const PathKey& key, uint64_t draw) {
   return {side * std::cos(turn), z, side * std::sin(turn)};
 }
 
-/// A hole of 4 m, with a random shape: a ball with hard or smooth edge, a tilted box, or a burrow into the solid.
+/// A brush that cuts a hole of 4 m with a random shape: a ball with hard or smooth edge, a tilted box, or a burrow into
+/// the solid.
 sgm_brush holeAt(const sgm_surface_point& at, const PathKey& key) {
   sgm_brush brush = SGM_BRUSH_INIT;
   const double shape = key.unit(kShape);
@@ -103,7 +104,7 @@ Result<void> FlightDigger::plan(uint64_t frame, const FlightPlace& place) {
   const bool add = kind >= kCuts && kind < kCuts + kAdds;
   const Result<sgm_surface_point> at = surfaceNear(place, key, !add && key.unit(kAhead) < 0.75);
   if (!at) return at.error();
-  // No surface is near enough to dig.
+  // Skip this dig if no surface is near enough.
   if (at->found == 0) return {};
   planned_.emplace().brush = add && at->distance > kRoomForLump ? lumpAt(*at) : holeAt(*at, key);
   return {};
@@ -130,7 +131,7 @@ Result<void> FlightDigger::dig() {
 }
 
 void FlightDigger::look(const sgm_world_stats& stats) {
-  // There is at most one dig per frame, so the current state of edits is the one that includes it.
+  // There is at most one dig per frame, so the current edit state is the first that includes this dig.
   if (dug_) waiting_.push_back({stats.edits_state, commits_, *dug_});
   dug_.reset();
   commits_ += stats.frame != frame_;

@@ -32,7 +32,7 @@ sgm_vertex vertexAt(const sgm_mesh_view& mesh, uint32_t index) {
   return vertex;
 }
 
-/// Number of non-degenerate triangles in the body and in the drawn seams.
+/// Number of triangles with non-zero area in the body and in the drawn seams.
 uint64_t solidTriangles(const sgm_mesh_view& mesh, uint32_t seams) {
   uint64_t triangles = 0;
   for (uint32_t part = 0; part <= SGM_FACE_COUNT; ++part) {

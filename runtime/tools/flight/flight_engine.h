@@ -1,5 +1,5 @@
 #pragma once
-// An engine's side of a streamed world: keeps the meshes and colliders that the world's events deliver.
+// The engine's side of a streamed world: keeps the meshes and colliders that the world's events deliver.
 
 #include <sgm/sgm.h>
 
@@ -15,7 +15,7 @@
 
 namespace sgm::cli {
 
-/// Converts an error of the public interface.
+/// Converts an error of the public C interface.
 Error errorOf(const sgm_error& error);
 
 /// A chunk that is currently drawn.
@@ -26,41 +26,42 @@ struct DrawnMesh {
 using DrawnKey = std::tuple<int32_t, int32_t, int32_t, int32_t>;  ///< level, x, y, z
 using DrawnMeshes = std::map<DrawnKey, DrawnMesh>;
 
-/// The results of checkFrame() over all frames so far.
+/// The combined results of checkFrame() over all frames so far.
 struct CheckedFrames {
   FrameReport worst;  ///< the largest value of each count over all frames
   uint64_t whole_checks = 0, whole_failures = 0;
-  uint64_t between_parts = 0;  ///< the largest WholeReport::between_parts of all complete checks
+  uint64_t between_parts = 0;  ///< the largest WholeReport::between_parts over all complete checks
 };
 
 struct ColliderReport {
   uint64_t colliders = 0;  ///< number of colliders that the engine holds
-  uint64_t missing = 0;    ///< number of nearby drawn chunks without a collider
-  uint64_t unlike = 0;     ///< number of colliders that differ from the drawn triangles
-  uint64_t stray = 0;      ///< number of colliders of chunks that are not drawn
+  uint64_t missing = 0;    ///< number of nearby drawn chunks that have triangles but no collider
+  uint64_t unlike = 0;     ///< number of colliders whose number of triangles differs from that of the drawn chunk
+  uint64_t stray = 0;      ///< number of colliders whose chunk is not drawn
 
   bool fit() const { return missing + unlike + stray == 0; }
 };
 
-/// Not thread-safe.
+/// Processes the events of a streamed world as an engine does. Not thread-safe.
 class FlightEngine {
  public:
   /// check: enables checkFrame().
   explicit FlightEngine(bool check);
 
-  /// Processes all events; returns the number of bytes of the received meshes. Does not check the frame: see
+  /// Processes all pending events; returns the number of bytes of the received meshes. Does not check the surface: see
   /// checkFrame().
   Result<uint64_t> poll(sgm_world* world);
-  /// Checks the changes in the drawn surface, or, if `whole`, all of it. Does nothing if checks are not enabled.
+  /// Checks the drawn surface after the latest changes; if `whole`, also checks all of it from scratch. Merges the
+  /// result into `checked`. Does nothing if checks are not enabled.
   Result<void> checkFrame(bool whole, CheckedFrames& checked);
 
-  /// Whether a place on the surface, in units, is drawn at level 0: a level-0 chunk with triangles contains the place
-  /// or lies within one grid cell (`cell` units) of it.
+  /// Whether a place on the surface, in units, is drawn at level 0: a drawn level-0 chunk contains the place or a point
+  /// within one grid cell (`cell` units) of it.
   bool finestAt(const int32_t (&place)[3], int32_t cell) const;
   /// Whether every drawn chunk that may have triangles within `distance` metres has a collider, even an outdated one.
   bool collidesNear(const Metres3& place, double distance) const;
-  /// Compares the colliders within `distance` metres with the drawn triangles exactly. Use it only when the world is
-  /// idle.
+  /// Compares the numbers of triangles of all colliders with those of the drawn chunks, and counts drawn chunks within
+  /// `distance` metres without a collider. Call it only when the world is idle.
   ColliderReport checkColliders(const Metres3& place, double distance) const;
 
   const DrawnMeshes& drawn() const { return drawn_; }
@@ -72,7 +73,7 @@ class FlightEngine {
   DrawnMeshes drawn_;
   std::map<DrawnKey, std::shared_ptr<sgm_mesh>> ready_;
   std::map<DrawnKey, std::shared_ptr<sgm_collider>> colliders_;
-  std::vector<DrawnKey> changed_;  ///< chunks that changed since the last checkFrame(), if checks are enabled
+  std::vector<DrawnKey> changed_;  ///< chunks changed since the last checkFrame(); empty if checks are not enabled
   std::optional<FrameChecker> checker_;
 };
 

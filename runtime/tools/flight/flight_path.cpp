@@ -10,9 +10,9 @@
 namespace sgm::cli {
 namespace {
 
-constexpr double kFarthest = 2e6;       // metres, maximum distance from the world's origin on each axis
-constexpr double kFinest = 0.25;        // metres between the places of a curve
-constexpr double kMaxPlaces = 1 << 20;  // maximum number of places of a path from a file
+constexpr double kFarthest = 2e6;       // maximum distance of a point from the world's origin on each axis, metres
+constexpr double kFinest = 0.25;        // distance between the resampled places of a curve, metres
+constexpr double kMaxPlaces = 1 << 20;  // maximum number of resampled places of a path from a file
 constexpr size_t kMaxPathBytes = size_t{64} << 20;
 
 Error wrong(const std::string& what) { return {Code::invalid_argument, what}; }
@@ -91,7 +91,8 @@ FlightPath FlightPath::through(const PathPoints& path) {
   };
   const double finest = std::max(kFinest, lengthAlong(path.points) / kMaxPlaces);
   const std::vector<Metres3> points = splinePoints(path.points, finest / 2, path.loop);
-  // A whole number of spacings, minus a rounding margin, so that the last place is not lost and a loop closes.
+  // Choose the spacing so that the length is a whole number of spacings. The rounding margin ensures that the last
+  // place is not lost and that a loop closes.
   const double length = (1 - 1e-9) * lengthAlong(points);
   FlightPath flight(length / std::max(1.0, std::round(length / finest)));
   flight.loop_ = path.loop;
@@ -108,7 +109,7 @@ Result<FlightPath> FlightPath::automatic(sgm_field* field, const sgm_grammar* gr
 }
 
 Result<FlightPlace> FlightPath::at(double s) {
-  // The direction at a place depends on the next place, so plan that far.
+  // The direction at a place depends on the next places, so plan slightly beyond s.
   while (planner_ && curve_.length() < s + 2 * planner_->spacing()) {
     const Result<std::vector<Metres3>> piece = planner_->next();
     if (!piece) return piece.error();

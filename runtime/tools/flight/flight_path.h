@@ -1,5 +1,5 @@
 #pragma once
-// The path of a flight: through the points of a file, or planned through the void of a field.
+// The path of a flight: a curve through the points of a file, or a path planned through the void of a field.
 
 #include <optional>
 #include <string>
@@ -9,9 +9,10 @@
 
 namespace sgm::cli {
 
-/// The contents of a path file, {"points": [[x, y, z], ...], "loop": true}, in metres. If loop is missing, it is false.
+/// The contents of a path file, {"points": [[x, y, z], ...], "loop": true}, in metres. If "loop" is missing, it is
+/// false.
 struct PathPoints {
-  std::vector<Metres3> points;  ///< two or more; neighbours differ
+  std::vector<Metres3> points;  ///< at least two points; neighbouring points differ
   bool loop = false;
 };
 
@@ -19,22 +20,23 @@ struct PathPoints {
 /// any other invalid content.
 Result<PathPoints> readPathPoints(std::string_view json);
 
-/// Not thread-safe.
+/// A path along which a viewer flies, parametrized by arc length. Not thread-safe.
 class FlightPath {
  public:
-  /// A smooth curve through the points of a file. Errors: io, those of readPathPoints(); the message begins with the
-  /// file's name.
+  /// A smooth curve through the points of a file. Errors: io; those of readPathPoints(), with the file's name at the
+  /// beginning of the message.
   static Result<FlightPath> ofFile(const std::string& file);
   static FlightPath through(const PathPoints& path);
-  /// An endless path, planned during the flight. Field and grammar must outlive it. Errors: as FlightPlanner::begin().
+  /// An endless path, planned while the flight proceeds. Field and grammar must outlive the path. Errors: those of
+  /// FlightPlanner::begin().
   static Result<FlightPath> automatic(sgm_field* field, const sgm_grammar* grammar, const AutoFlight& settings);
 
-  /// The place at arc length s >= 0, in metres. Plans the path up to there if necessary, which is slow. Beyond the end
-  /// of a path, the place is its end; a loop starts again. Errors: as FlightPlanner::next().
+  /// The place at arc length s >= 0, in metres. If necessary, plans the path up to there, which is slow. Beyond the end
+  /// of a path, returns its end; a loop starts again. Errors: those of FlightPlanner::next().
   Result<FlightPlace> at(double s);
-  /// Length in metres; nullopt for an endless path.
+  /// Length in metres; nullopt for a planned path or a loop, which have no end.
   std::optional<double> length() const;
-  /// Continues from another place (FlightPlanner::teleport), from which s is then measured. Error: unsupported for a
+  /// Continues the path at another place (FlightPlanner::teleport), where s starts at 0 again. Error: unsupported for a
   /// path from a file.
   Result<void> teleport(uint64_t number);
 

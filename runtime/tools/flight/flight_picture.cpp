@@ -10,10 +10,10 @@
 namespace sgm::cli {
 namespace {
 
-constexpr int kMargin = 8;                                 // pixels between the pictures of a sheet
-constexpr std::array<uint8_t, 4> kSheet{24, 24, 26, 255};  // background between the pictures
+constexpr int kMargin = 8;                                 // space between the pictures of a sheet, pixels
+constexpr std::array<uint8_t, 4> kSheet{24, 24, 26, 255};  // RGBA colour between the pictures of a sheet
 
-/// Colours of the levels of detail, from fine to coarse; further levels repeat them.
+/// Colours of the levels of detail, from fine to coarse; used cyclically if there are more levels.
 constexpr std::array<glm::vec3, 8> kLevelColours{{{0.75f, 0.75f, 0.72f},
                                                   {0.18f, 0.55f, 0.22f},
                                                   {0.14f, 0.38f, 0.75f},
@@ -71,7 +71,7 @@ struct PictureMesh {
 Result<Image> drawChunks(const Renderer& renderer, const sgm_grammar* grammar, std::span<const PicturedChunk> chunks,
                          const PictureRequest& request) {
   RenderScene scene;
-  // The scene's origin is near the camera, so that single precision suffices anywhere in the world.
+  // Place the scene's origin near the camera, so that single precision suffices anywhere in the world.
   for (int axis = 0; axis < 3; ++axis)
     scene.origin[axis] = saturate(std::llround(request.camera.position[axis]) * kUnitsPerMetre);
   PictureMesh mesh;
@@ -96,7 +96,7 @@ Result<Image> drawChunks(const Renderer& renderer, const sgm_grammar* grammar, s
   view.depth = static_cast<float>(request.depth);
   lightScene(view, request.levels ? Light::lamp : request.light, scene);
   if (request.levels) {
-    // Even light and no haze, so that the colours of far levels are visible.
+    // Use even light and no haze, so that the colours of far levels are visible.
     scene.ambient = 0.2f;
     scene.exposure = 1.6f;
     scene.fog_distance = 1e6f;

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of the chunks that are drawn in a flight.
+// Draws pictures of the chunks that are visible during a flight.
 
 #include <sgm/sgm.h>
 
@@ -12,7 +12,7 @@
 
 namespace sgm::cli {
 
-/// A drawn chunk: its body, and those of its seams whose bits (1u << sgm_face) are set in `seams`.
+/// A chunk to draw: its body, and the seams whose bits (1u << sgm_face) are set in `seams`.
 struct PicturedChunk {
   sgm_mesh_view mesh = SGM_MESH_VIEW_INIT;
   uint32_t seams = 0;
@@ -20,21 +20,21 @@ struct PicturedChunk {
 
 struct PictureRequest {
   FlightPlace camera;
-  double fov_degrees = 68;  ///< across the picture's height
+  double fov_degrees = 68;  ///< vertical field of view
   int width = 640, height = 360;
   Light light = Light::sun;
-  /// Typical distance in metres of visible surfaces; sets the reach of the lamp and the density of haze.
+  /// Typical distance of visible surfaces, in metres; determines the reach of the lamp and the density of haze.
   double depth = 20;
-  /// Draws each level of detail in its own colour, brightly lit; otherwise materials in `light`.
+  /// true: draws each level of detail in its own colour, brightly lit; false: draws materials lit by `light`.
   bool levels = false;
 };
 
-/// Draws the chunks as the camera sees them. Under Light::lamp the camera's own lamp is the only one, since other lamps
-/// would change their places from picture to picture. Errors: those of Renderer::render.
+/// Draws the chunks as the camera sees them. With Light::lamp, the only lamp is at the camera, since lamps placed
+/// elsewhere would move from picture to picture. Errors: those of Renderer::render.
 Result<Image> drawChunks(const Renderer& renderer, const sgm_grammar* grammar, std::span<const PicturedChunk> chunks,
                          const PictureRequest& request);
 
-/// All images on one sheet, row by row, with margins; each place has the size of the largest image. Empty if there are
+/// Arranges images on one sheet, row by row, with margins; each gets the space of the largest image. Empty if there are
 /// no images. Precondition: columns > 0.
 Image contactSheet(std::span<const Image> images, int columns);
 

@@ -13,16 +13,17 @@
 namespace sgm::cli {
 namespace {
 
-constexpr int64_t kFirstLook = 1'000;  // limit of the path cost in the first search for a new place
-// Limit of the path cost in the last search, after which visited places are accepted.
+constexpr int64_t kFirstLook = 1'000;  // maximum path cost, in tenths of a step, of the first search for a new place
+// Maximum path cost, in tenths of a step, of the last search. If even this search finds only visited places, they are
+// accepted.
 constexpr int64_t kFarthestLook = 81'000;
 constexpr size_t kMaxNodes = 1'000'000;  // maximum number of visited nodes in a search
-constexpr int64_t kShortest = 240;       // minimum cost of a useful path
-constexpr size_t kWorthIt = 500;         // minimum number of nodes that must be reachable from the start
-constexpr int kRegion = 16;              // steps; places nearer to each other than this count as the same region
+constexpr int64_t kShortest = 240;       // minimum path cost of a planned piece of path, in tenths of a step
+constexpr size_t kWorthIt = 500;         // minimum number of nodes that must be reachable from a starting point
+constexpr int kRegion = 16;              // edge of a region in steps; a region counts as visited as a whole
 constexpr int kTries = 40;               // maximum number of attempts to find a far place or a waypoint
 constexpr int kGoals = 24;
-constexpr int kWays = 8;  // number of paths that are tried to each goal
+constexpr int kWays = 8;  // number of paths to each goal that are tried
 
 Metres3 metresOf(Int3 p) { return {metres(p.x), metres(p.y), metres(p.z)}; }
 
@@ -36,7 +37,7 @@ Int3 unitsOf(const Metres3& p) {
 int64_t distanceSquared(Int3 a, Int3 b) {
   int64_t sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const int64_t d = (int64_t{a[axis]} - b[axis]) / 16;  // divided so that the sum of squares does not overflow
+    const int64_t d = (int64_t{a[axis]} - b[axis]) / 16;  // divide, so that the sum of squares cannot overflow
     sum += d * d;
   }
   return sum;
@@ -68,7 +69,7 @@ double FlightPlanner::spacing() const { return metres(grid_->step()) / 4; }
 Result<FlightPlanner> FlightPlanner::begin(sgm_field* field, const sgm_grammar* grammar, const AutoFlight& settings) {
   std::optional<Error> error;
   AutoFlight narrower = settings;
-  // If the caller does not require a width, half of the chosen width may suffice.
+  // If the caller does not require a clearance, retry with half of the chosen clearance.
   for (int attempt = 0; attempt < (settings.room > 0 ? 1 : 2); ++attempt) {
     FlightPlanner planner(field, grammar, narrower);
     const Result<void> settled = planner.settle(unitsOf(settings.near_place), 512 * kUnitsPerMetre);
@@ -99,7 +100,8 @@ Result<void> FlightPlanner::settle(Int3 near, int32_t reach) {
     return false;
   };
   if (settleAt(domain_.solid != 0 ? anchorsNear(near, reach) : std::vector<Int3>{near})) return {};
-  // Without anchors, search the void everywhere, near places first, since each place costs a derivation.
+  // If there is no usable anchor, search the void everywhere, nearest places first, since sampling a place costs the
+  // derivation of grammar cells.
   for (int32_t half = 32 * kUnitsPerMetre; domain_.solid != 0 && half <= reach; half *= 4) {
     const Result<std::vector<Int3>> found = voidsNear(near, half);
     if (!found) return found.error();
@@ -110,7 +112,7 @@ Result<void> FlightPlanner::settle(Int3 near, int32_t reach) {
                             metres(near.x), metres(near.y), metres(near.z)));
 }
 
-/// The 16 places in the void nearest to `near`, at most `half` units away on each axis.
+/// Finds up to 16 places in the void, nearest to `near` first, at most `half` units away on each axis.
 Result<std::vector<Int3>> FlightPlanner::voidsNear(Int3 near, int32_t half) {
   constexpr size_t kMaxPlaces = 16;
   std::vector<Int3> lattice;
@@ -124,7 +126,7 @@ Result<std::vector<Int3>> FlightPlanner::voidsNear(Int3 near, int32_t half) {
   std::stable_sort(lattice.begin(), lattice.end(),
                    [&](Int3 a, Int3 b) { return distanceSquared(a, near) < distanceSquared(b, near); });
   std::vector<Int3> places;
-  // The places are sampled in batches: the first batch usually suffices, and needs the derivation of few cells.
+  // Sample the places in batches: the first batch usually suffices, and needs the derivation of few grammar cells.
   constexpr size_t kAtOnce = 512;
   for (size_t first = 0; first < lattice.size() && places.size() < kMaxPlaces; first += kAtOnce) {
     const std::span<const Int3> asked = std::span(lattice).subspan(first, std::min(kAtOnce, lattice.size() - first));
@@ -173,14 +175,14 @@ Result<std::vector<Metres3>> FlightPlanner::next() {
     const Result<std::vector<Int3>> way = wayOn();
     if (!way) return way.error();
     if (attempt % kWays == kWays - 1) {
-      // All paths to this goal were blocked by an obstacle wider than a few nodes: choose another goal.
+      // All paths to this goal are blocked by an obstacle wider than a few nodes: choose another goal.
       grid_->unblock();
       been_.insert(regionOf(way->back()));
       ++waypoint_;
       continue;
     }
     const int32_t room = attempt < kGoals * kWays / 2 ? grid_->step() / 2 : grid_->step() / 8;
-    // First try a smooth curve through every third node; if it comes too close to rock, a curve through every node.
+    // Try a smooth curve through every third node first; if it comes too close to rock, use a curve through every node.
     for (const size_t stride : {size_t{3}, size_t{1}}) {
       std::vector<Metres3> controls;
       for (size_t i = 0; i + 1 < way->size(); i += stride) controls.push_back(metresOf(grid_->placeOf((*way)[i])));
@@ -197,8 +199,8 @@ Result<std::vector<Metres3>> FlightPlanner::next() {
       if (!tight) return tight.error();
       if (*tight && stride > 1) continue;
       if (*tight) {
-        // An obstacle lies between the grid's nodes: mark the nearest node as not clear. At the start of a piece, the
-        // cause may instead be too sharp a turn.
+        // An obstacle lies between nodes of the grid: block the nearest node, and plan again. At the start of a piece,
+        // the cause may instead be too sharp a turn: then allow any direction.
         const auto nearest = std::min_element(way->begin(), way->end(), [&](Int3 a, Int3 b) {
           return distanceSquared(grid_->placeOf(a), **tight) < distanceSquared(grid_->placeOf(b), **tight);
         });
@@ -225,7 +227,7 @@ Result<std::vector<Int3>> FlightPlanner::wayOn() { return domain_.solid != 0 ? w
 
 Result<std::vector<Int3>> FlightPlanner::wayToNew() {
   for (int64_t look = kFirstLook;; look *= 3) {
-    // Far nodes are preferred; the seed varies the order.
+    // Prefer far nodes; a random factor that depends on the seed varies the choice.
     std::optional<Int3> best;
     double most = 0;
     const VoidSearch search(*grid_, node_, kMaxNodes, {}, [&](Int3 node, int64_t cost) {
@@ -243,7 +245,7 @@ Result<std::vector<Int3>> FlightPlanner::wayToNew() {
     if (best) return search.wayTo(*best);
     if (look < kFarthestLook) continue;
     if (been_.size() <= 1) return noRoom("the void around the flight is too small");
-    // All regions are visited: forget them and start again.
+    // All reachable regions are visited: forget the visits and start again.
     been_.clear();
     look = kFirstLook / 3;
   }
@@ -308,13 +310,14 @@ Result<void> FlightPlanner::findSolids(Int3 near) {
 }
 
 Int3 FlightPlanner::waypoint(int64_t number) const {
-  // Each turn of the spiral is wider by `scale_`, and waypoints lie half of `scale_` apart. The length of the spiral
-  // grows with the square of the angle; at this angle it is `number` times half of `scale_`.
+  // Each turn of the spiral is wider by `scale_` than the previous turn, and waypoints are half of `scale_` apart along
+  // it. The length of a spiral grows with the square of the angle, so the angle of a waypoint is proportional to the
+  // square root of its number.
   constexpr double kTurn = 2 * std::numbers::pi;
   const double angle = std::sqrt(kTurn * (1.0 + static_cast<double>(number)));
   double radius = scale_ * (0.25 + angle / kTurn);
   if (domain_.infinite == 0) {
-    // In a finite world, the radius alternately grows and shrinks, so that the flight stays inside.
+    // In a finite world, let the radius alternately grow and shrink, so that the path stays inside.
     const double widest = 2.5 * scale_;
     radius = std::fabs(std::remainder(radius, 2 * widest));
   }

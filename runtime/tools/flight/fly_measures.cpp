@@ -11,7 +11,7 @@ namespace {
 
 std::string nameOf(size_t kind) { return measure::defectName(static_cast<measure::Defect>(kind)); }
 
-/// The JSON key of a kind of defect: "non-manifold edges" becomes nonmanifold_edges.
+/// The JSON key of a kind of defect: "non-manifold edges" becomes "nonmanifold_edges".
 std::string keyOf(size_t kind) {
   std::string key;
   for (const char c : nameOf(kind)) {

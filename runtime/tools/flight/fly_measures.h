@@ -1,5 +1,5 @@
 #pragma once
-// The part of the report of `sgm fly --measure` that concerns the streamed chunks.
+// The part of the report of `sgm fly --measure` about the measures of the streamed chunks.
 
 #include <sgm/sgm.h>
 
@@ -13,7 +13,7 @@ namespace sgm::cli {
 Json toJson(const sgm_world_measures& measures);
 void print(const sgm_world_measures& measures);
 
-/// Describes the defects of the chunks; nullopt if there are none.
+/// Describes the defects of the meshed chunks; nullopt if there are none.
 std::optional<std::string> defectOf(const sgm_world_measures& measures);
 
 }  // namespace sgm::cli

@@ -8,14 +8,14 @@
 namespace sgm::cli {
 namespace {
 
-/// Counts one edge by its uses in both directions.
+/// Adds one edge to the counts. forward, backward: number of triangles that use the edge in each direction.
 void countUse(uint64_t forward, uint64_t backward, EdgeCounts& counts) {
   counts.edges += forward + backward > 0;
   counts.open += forward != backward;
   counts.nonmanifold += forward > 1 || backward > 1;
 }
 
-/// Calls use(from, to) with vertex indices for every edge of each triangle that has no repeated vertex.
+/// Calls use(from, to) with vertex indices for each edge of each triangle. Skips triangles with a repeated vertex.
 template <class Use>
 void forEachEdge(const std::vector<uint32_t>& indices, const std::vector<uint32_t>& ids, const Use& use) {
   for (size_t i = 0; i < indices.size(); i += 3) {
@@ -53,8 +53,8 @@ Result<void> FrameChecker::redraw(const sgm_chunk_key& key, const DrawnParts& pa
   const auto at = chunks_.find(keyOf(key));
   if (at == chunks_.end()) return malformed(keyOf(key), "is not drawn");
   CheckedChunk& chunk = at->second;
-  // Only lateral vertices depend on neighbouring blocks, but seams are small: if its fans change, re-add the whole
-  // seam.
+  // Among the vertices of a seam, only lateral ones (at corners where two levels meet) depend on the neighbouring
+  // blocks, through the fan numbers that identify them. Since seams are small, re-add a whole seam if its fans change.
   std::array<bool, 1 + SGM_FACE_COUNT> stays{true};
   forEachDrawn(chunk, [&](CheckedPart&, size_t number) {
     if (number == 0) return;

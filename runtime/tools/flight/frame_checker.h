@@ -1,7 +1,7 @@
 #pragma once
-// Checks whether the surface drawn in a frame is closed. The checker processes changes chunk by chunk, so it can check
-// every frame of a flight. It compares exact vertex keys, formed only from the public interface's meshes, and never
-// hashes; for faults of triangles it also uses positions (mesh/triangle_faults.h).
+// Checks whether the surface drawn in a frame is closed. The checker is updated chunk by chunk, so that it can check
+// every frame of a flight. It identifies vertices by exact keys, computed only from the meshes of the public interface,
+// and never by hashes; to find faulty triangles it also uses positions (mesh/triangle_faults.h).
 
 #include <sgm/sgm.h>
 
@@ -18,9 +18,9 @@
 
 namespace sgm::cli {
 
-/// The drawn chunks of one world. Copies what it needs of their meshes, including seams that are not drawn, so the
-/// meshes may be released: about 25 bytes an edge. Edges inside a chunk's body are counted once, since no other chunk
-/// can share them; only vertices on the chunk's faces are looked up among all. One thread at a time.
+/// The drawn chunks of one world. Copies the necessary parts of their meshes, including seams that are not drawn (about
+/// 25 bytes per edge), so the meshes may be released. Edges inside a chunk's body are counted only once, since no other
+/// chunk can share them; only vertices on the chunk's faces are looked up among all chunks. Not thread-safe.
 class FrameChecker {
  public:
   FrameChecker() = default;
@@ -30,19 +30,20 @@ class FrameChecker {
   /// Adds a drawn chunk, or replaces its previous mesh. Error: invalid_argument if the mesh is malformed; the checker
   /// is then unchanged.
   Result<void> draw(const sgm_mesh_view& mesh, const DrawnParts& parts);
-  /// Changes which seams of a chunk are drawn; its mesh stays. Error: invalid_argument if the chunk is not drawn.
+  /// Changes which seams of a drawn chunk are drawn; its mesh stays the same. Error: invalid_argument if the chunk is
+  /// not drawn.
   Result<void> redraw(const sgm_chunk_key& key, const DrawnParts& parts);
   /// Removes a drawn chunk. Returns false if the chunk is not drawn.
   bool erase(const sgm_chunk_key& key);
 
-  /// The report on the current state. Takes constant time, since each change updates the report.
+  /// The report on the currently drawn chunks. Takes constant time, since each change updates the report.
   const FrameReport& check() const { return report_; }
-  /// Checks everything from scratch (whole_check.h).
+  /// Checks all drawn chunks from scratch (whole_check.h), independently of check().
   WholeReport checkWhole() const { return checkAll(chunks_); }
 
  private:
-  static constexpr uint32_t kInside = 1u << 31;  ///< in an id: the number is local to its body
-  using Edge = std::pair<uint32_t, uint32_t>;    ///< ids, the lower one first
+  static constexpr uint32_t kInside = 1u << 31;  ///< flag in a vertex id: the id is unique only within its body
+  using Edge = std::pair<uint32_t, uint32_t>;    ///< two vertex ids, the lower id first
   struct Hash : VertexKeyHash {
     using VertexKeyHash::operator();
     size_t operator()(const Edge& edge) const;
@@ -56,7 +57,7 @@ class FrameChecker {
   };
   struct Place {
     bool drawn = false;
-    uint32_t below = 0;  ///< number of drawn chunks that this chunk's cube contains
+    uint32_t below = 0;  ///< number of drawn finer chunks inside the cube of this chunk
   };
 
   void show(CheckedChunk& chunk, size_t number);
@@ -65,16 +66,16 @@ class FrameChecker {
   void place(const ChunkKey& key, bool more);
 
   std::pmr::unsynchronized_pool_resource pool_;
-  std::pmr::unordered_map<VertexKey, VertexUse, Hash> vertices_{&pool_};  ///< on faces
-  std::pmr::unordered_map<Edge, EdgeUse, Hash> edges_{&pool_};            ///< between vertices on faces
-  std::pmr::unordered_map<ChunkKey, Place, Hash> places_{&pool_};         ///< of drawn chunks, and of all chunks that
-                                                                          ///< contain them
+  std::pmr::unordered_map<VertexKey, VertexUse, Hash> vertices_{&pool_};  ///< vertices on chunk faces
+  std::pmr::unordered_map<Edge, EdgeUse, Hash> edges_{&pool_};            ///< edges between two vertices on chunk faces
+  /// Drawn chunks, and all chunks that contain a drawn chunk.
+  std::pmr::unordered_map<ChunkKey, Place, Hash> places_{&pool_};
   CheckedChunks chunks_;
   std::vector<uint32_t> free_ids_;
   uint32_t next_id_ = 0;
   std::vector<uint32_t> first_;  ///< scratch memory, used within one call
-  /// Scratch memory: edges inside a body, as both vertex numbers, the lower one first; the last bit is set if the edge
-  /// was reversed.
+  /// Scratch memory: uses of edges inside a body. Each packs both vertex numbers, the lower first; the last bit is set
+  /// if the edge is used in the reverse direction.
   std::vector<uint64_t> inside_;
   PairScratch pairs_{std::pmr::new_delete_resource()};
   FrameReport report_;

@@ -1,5 +1,5 @@
 #pragma once
-// What a check of the drawn surface counts.
+// The results of checks of the drawn surface.
 
 #include <cstdint>
 
@@ -9,14 +9,14 @@ namespace sgm::cli {
 
 struct FrameReport {
   uint64_t chunks = 0, triangles = 0;
-  uint64_t edges = 0;                 ///< undirected
-  uint64_t open_edges = 0;            ///< used more often in one direction than in the other
-  uint64_t nonmanifold_edges = 0;     ///< used at least twice in one direction, as every edge of three triangles
-  uint64_t degenerate_triangles = 0;  ///< triangles with a repeated vertex, whose edges do not count
-  uint64_t flat_triangles = 0;        ///< of bodies, as are the next two, which count pairs within one part
-  uint64_t folded_triangles = 0;      ///< pairs
-  uint64_t self_intersections = 0;    ///< pairs
-  uint64_t overlaps = 0;              ///< pairs of drawn chunks, one of which contains the other
+  uint64_t edges = 0;              ///< number of undirected edges
+  uint64_t open_edges = 0;         ///< edges that triangles use more often in one direction than in the other
+  uint64_t nonmanifold_edges = 0;  ///< edges used at least twice in the same direction, for example by three triangles
+  uint64_t degenerate_triangles = 0;  ///< triangles with a repeated vertex; their edges are not counted
+  uint64_t flat_triangles = 0;        ///< triangles with zero area, in bodies of chunks
+  uint64_t folded_triangles = 0;      ///< pairs of triangles of one body that fold onto each other
+  uint64_t self_intersections = 0;    ///< pairs of triangles of one body that intersect
+  uint64_t overlaps = 0;              ///< pairs of drawn chunks of which one contains the other
 
   bool closed() const { return open_edges + nonmanifold_edges + degenerate_triangles + overlaps == 0; }
   bool valid() const { return closed() && flat_triangles + folded_triangles + self_intersections == 0; }
@@ -24,10 +24,10 @@ struct FrameReport {
 };
 
 struct WholeReport {
-  FrameReport frame;  ///< counted anew: a difference to check() means a bug in the checker
-  MeshReport mesh;    ///< including the links of all vertices
-  /// Pairs of triangles of different parts: folds or cuts between bodies of one level, other parts that pierce each
-  /// other.
+  FrameReport frame;  ///< counts from scratch; a difference from FrameChecker::check() is a bug in the checker
+  MeshReport mesh;    ///< topological check, including the links of all vertices
+  /// Pairs of triangles of different parts (bodies and seams of chunks) that overlap or intersect: folds or cuts
+  /// between bodies of the same level, and intersections between other parts.
   uint64_t between_parts = 0;
 
   bool closed() const { return frame.closed() && mesh.closed(); }

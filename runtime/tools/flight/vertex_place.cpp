@@ -9,7 +9,8 @@
 namespace sgm::cli {
 namespace {
 
-/// The key of a feature in a body, or in the seam over a face; nullopt if these cannot have it.
+/// The key of a feature vertex in a body (seam is null) or in a seam; nullopt if a body or this seam cannot contain the
+/// vertex.
 std::optional<VertexKey> featureKey(const ChunkGrid& grid, const VertexPlace& vertex, const SeamOf* seam) {
   const bool of_cell = (vertex.kind >> 14 & 1) != 0, coarser = (vertex.kind >> 13 & 1) != 0;
   if (seam == nullptr ? coarser : of_cell) return {};

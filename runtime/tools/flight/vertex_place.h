@@ -1,5 +1,5 @@
 #pragma once
-// Which vertices of meshes are the same vertex of the drawn surface.
+// Identifies the vertices of different meshes that are the same vertex of the drawn surface.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,23 +10,25 @@
 
 namespace sgm::cli {
 
-/// Edge of a chunk in the units of VertexPlace.
+/// Edge length of a chunk in the units of VertexPlace.
 inline constexpr int kChunkEdge = kChunkCells * kSubcell;
 
-/// The words of an sgm_vertex that identify the vertex.
+/// The members of an sgm_vertex that identify the vertex.
 struct VertexPlace {
   int16_t x = 0, y = 0, z = 0;
   uint16_t kind = 0;
 };
 
-/// The seam that a vertex belongs to.
+/// A seam: the face of the chunk over which it lies, and the fan numbers that identify its lateral vertices (at corners
+/// where two levels meet).
 struct SeamOf {
   Face face = Face::x_lo;
   SeamFans fans{};
 };
 
-/// The key of a vertex by the rules of sgm_vertex_kind; seam is null for a vertex of a body. nullopt if the vertex is
-/// invalid: it lies on no edge, not in the seam's face, or has a kind that a body does not have.
+/// The key that identifies a vertex on the whole surface, by the rules of sgm_vertex_kind. seam: null for a vertex of a
+/// body. Returns nullopt if the vertex is invalid: it lies on no grid edge, not in the seam's face, or has a kind that
+/// a body cannot have.
 std::optional<VertexKey> vertexKey(const ChunkGrid& grid, const VertexPlace& vertex, const SeamOf* seam);
 
 struct VertexKeyHash {
@@ -35,8 +37,8 @@ struct VertexKeyHash {
 
 bool isFeature(const VertexPlace& vertex);
 
-/// True if the vertex lies on no face of its chunk, so that no other chunk can share it. False for features, which may
-/// lie off their faces.
+/// Whether the vertex lies on no face of its chunk, so that no other chunk can share it. Always false for feature
+/// vertices, which other chunks may share even off the face.
 bool isInside(const VertexPlace& vertex);
 
 }  // namespace sgm::cli

@@ -11,11 +11,12 @@ namespace sgm::cli {
 namespace {
 
 constexpr int32_t kWorldEnd = 2'000'000 * kUnitsPerMetre;
-constexpr size_t kMaxBlocks = size_t{1} << 16;  // half a kilobyte for each block
+constexpr size_t kMaxBlocks = size_t{1} << 16;  // cache limit; each block takes half a kilobyte
 
 constexpr int32_t floorDivide(int32_t a, int32_t b) { return static_cast<int32_t>(floorDiv(a, b)); }
 
-/// Cost of a step to a neighbouring node, in tenths of a step, by the number of axes on which the nodes differ.
+/// Cost of a step to a neighbouring node, in tenths of a step; the index is the number of axes on which the two nodes
+/// differ.
 constexpr std::array<int64_t, 4> kStepCost{0, 10, 14, 17};
 
 }  // namespace
@@ -65,7 +66,7 @@ bool VoidGrid::isClear(Int3 node) {
 }
 
 const VoidGrid::Block& VoidGrid::blockAt(Int3 at) {
-  // Most requests are for the same block as the previous request.
+  // Most calls ask for the same block as the previous call.
   if (latest_ != nullptr && latest_at_ == at) return *latest_;
   latest_at_ = at;
   const auto known = blocks_.find(at);
@@ -85,7 +86,8 @@ const VoidGrid::Block& VoidGrid::blockAt(Int3 at) {
     error_ = solid.error();
     return block;
   }
-  // Dilates the solid by one node, one axis after the other, so that a node is clear only if its neighbours are.
+  // Dilates the solid by one node, one axis after another, so that a node is clear only if its 26 neighbours are in the
+  // void.
   std::vector<bool> blocked = *solid;
   for (const int stride : {1, kSide, kSide * kSide}) {
     const std::vector<bool> before = blocked;
@@ -120,7 +122,8 @@ std::optional<Int3> VoidGrid::nearestClear(Int3 node, int radius) {
 
 VoidSearch::VoidSearch(VoidGrid& grid, Int3 from, size_t most, const std::function<int64_t(Int3)>& guess,
                        const std::function<bool(Int3, int64_t)>& visit) {
-  // Cost plus guess; equal costs are ordered by place, for a deterministic order.
+  // Estimated total cost (cost so far plus guess), and node: nodes of equal cost are ordered by position, so that the
+  // search is deterministic.
   using Entry = std::tuple<int64_t, Int3>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto left = [&](Int3 node) { return guess ? guess(node) : 0; };
@@ -135,7 +138,7 @@ VoidSearch::VoidSearch(VoidGrid& grid, Int3 from, size_t most, const std::functi
     ++visited;
     const int64_t cost = here.cost;
     if (!visit(node, cost)) return;
-    // Steps beside walls cost twice as much, so that flights keep to the middle.
+    // Steps beside walls cost twice as much, so that paths keep to the middle of the void.
     int walls = 0;
     for (int axis = 0; axis < 3; ++axis) {
       for (const int side : {-1, 1}) {

@@ -1,5 +1,5 @@
 #pragma once
-// Finds room for a flight: samples the void of a field on a grid, on demand, and searches paths through it.
+// Samples the void of a field on a grid, on demand, and searches paths through it for a flight.
 
 #include <sgm/sgm.h>
 
@@ -21,12 +21,13 @@ struct PlaceHash {
   size_t operator()(const Int3& p) const;
 };
 
-/// For each point, in units, whether it is in the solid at level 0. Errors: those of sgm_field_sample.
+/// Returns for each point, in units, whether it is solid at level 0. Errors: those of sgm_field_sample.
 Result<std::vector<bool>> solidAt(sgm_field* field, std::span<const Int3> points);
 
-/// A grid of nodes. Node (x, y, z) lies at (x, y, z) times the step plus five eighths of a step on each axis: walls and
-/// floors often lie on whole metres, and nodes there would find void on both sides. A node is clear if it and its 26
-/// neighbours are in the void. The field must outlive the grid. After an error no node is clear.
+/// A grid of nodes. Node (x, y, z) lies at (x, y, z) times the step, plus five eighths of a step on each axis. The
+/// offset keeps nodes off the surfaces of walls and floors, which often lie on whole metres: a point exactly on a
+/// surface counts as void. A node is clear if it and its 26 neighbours are in the void. The field must outlive the
+/// grid. After an error no node is clear.
 class VoidGrid {
  public:
   VoidGrid(sgm_field* field, int32_t step) : field_(field), step_(step) {}
@@ -36,16 +37,16 @@ class VoidGrid {
   Int3 nodeAt(Int3 place) const;
 
   bool isClear(Int3 node);
-  /// Marks a node as not clear until unblock(), because of an obstacle that is too thin for the grid.
+  /// Marks a node as not clear until unblock() is called: its obstacle is too thin for the grid to detect.
   void block(Int3 node) { blocked_.insert(node); }
   void unblock() { blocked_.clear(); }
-  /// The clear node nearest to this node, at most `radius` steps away on each axis; nullopt if there is none.
+  /// The clear node that is nearest to `node`, at most `radius` steps away on each axis; nullopt if there is none.
   std::optional<Int3> nearestClear(Int3 node, int radius);
 
   const std::optional<Error>& error() const { return error_; }
 
  private:
-  /// Number of nodes on each axis of a block; the nodes of a block are sampled together.
+  /// Number of nodes along each axis of a block, whose nodes are sampled together.
   static constexpr int kBlock = 16;
   using Block = std::bitset<kBlock * kBlock * kBlock>;
   const Block& blockAt(Int3 at);
@@ -59,12 +60,12 @@ class VoidGrid {
   std::optional<Error> error_;
 };
 
-/// A search (A*) for the nodes that are reached from a start node, in order of their cost.
+/// An A* search from a start node over clear nodes, in the order of their path cost.
 class VoidSearch {
  public:
-  /// `guess` estimates the remaining cost from a node, in tenths of a step; null: 0 everywhere, so that all paths are
-  /// optimal. Steps beside walls cost twice their length. `visit` is called with each node as it is reached, and
-  /// returns false to stop. The search ends after `most` nodes.
+  /// guess: estimates the remaining cost from a node, in tenths of a step; null: 0 everywhere, so that all paths are
+  /// optimal. A step beside a wall costs twice its length. visit: called with each node when it is reached; returns
+  /// false to stop. The search ends after `most` nodes.
   VoidSearch(VoidGrid& grid, Int3 from, size_t most, const std::function<int64_t(Int3)>& guess,
              const std::function<bool(Int3 node, int64_t cost)>& visit);
 

@@ -9,7 +9,7 @@
 namespace sgm::cli {
 namespace {
 
-/// Runs jobs in the calling thread: the runtime has the other threads.
+/// Runs jobs in the calling thread, because the runtime uses the other threads.
 class NoThreads final : public JobSystem {
  public:
   unsigned concurrency() const override { return 1; }
@@ -17,14 +17,14 @@ class NoThreads final : public JobSystem {
   bool help() override { return false; }
 };
 
-/// Counts the pairs of triangles of different parts that WholeReport::between_parts describes.
+/// Counts the intersecting pairs of triangles of different parts (see WholeReport::between_parts).
 uint64_t countBetweenParts(const CheckedChunks& chunks) {
   struct Owner {
     int level;
     bool body;
   };
   std::vector<Owner> parts;
-  std::vector<uint32_t> owners;  // part, by triangle
+  std::vector<uint32_t> owners;  // for each triangle, the index of its part in `parts`
   std::vector<measure::Point> points;
   std::vector<measure::Triangle> triangles;
   if (chunks.empty()) return 0;
@@ -35,7 +35,7 @@ uint64_t countBetweenParts(const CheckedChunks& chunks) {
       for (const VertexPlace& v : part.vertices) {
         measure::Point& p = points.emplace_back();
         const std::array<int, 3> at{v.x, v.y, v.z};
-        // In 1/256 unit, which is exact.
+        // Coordinates in 1/256 unit are integers, so double precision represents them exactly.
         for (int axis = 0; axis < 3; ++axis)
           p[axis] = static_cast<double>((int64_t{grid.origin[axis]} - origin[axis]) * kSubcell +
                                         int64_t{at[static_cast<size_t>(axis)]} * grid.cell);
@@ -59,7 +59,8 @@ uint64_t countBetweenParts(const CheckedChunks& chunks) {
     tree.visitPairs(walk, UINT64_MAX, [&](uint32_t a, uint32_t b) {
       const Owner &first = parts[owners[a]], &second = parts[owners[b]];
       if (owners[a] == owners[b]) {
-        // A body's own pairs are already counted; triangles of a seam may coincide.
+        // Pairs within a body are already counted by countTriangles(), so skip them. Triangles of one seam may
+        // coincide, so count them only if they pierce each other.
         if (first.body) return;
       } else if (first.body && second.body && first.level == second.level) {
         pairs += measure::pairFault(cornersOf(a), cornersOf(b)) != PairFault::none;

@@ -14,17 +14,18 @@ namespace {
 
 constexpr size_t kMaxSpots = 40;  // maximum number of points on a target's surface that are tested for visibility
 constexpr int kHeadings = 20;
-// Directions to the camera, in degrees above the target.
+// Elevation angles of the camera as seen from the target, in degrees.
 constexpr std::array kPitches{-20.0f, 3.0f, 14.0f, 30.0f, 55.0f};
 constexpr std::array kNearer{1.0f, 0.84f, 0.7f,
-                             0.5f, 0.3f,  0.2f};  // factors of the distance at which the box fills the picture
-constexpr float kLeastSeen = 0.35f;               // minimum visible share of a view
+                             // Distances to try, as multiples of the distance at which the box fills the picture.
+                             0.5f, 0.3f, 0.2f};
+constexpr float kLeastSeen = 0.35f;  // minimum of FramedView::seen
 
 struct Spot {
   glm::vec3 position{0}, normal{0};
 };
 
-/// The centres of an evenly distributed selection of the target's triangles.
+/// The centres of up to kMaxSpots triangles, selected evenly from the target.
 std::vector<Spot> spotsOf(const RayCaster& mesh, const FrameTarget& target) {
   std::vector<Spot> spots;
   const size_t count = target.triangles.size(), taken = std::min(count, kMaxSpots);
@@ -38,7 +39,8 @@ std::vector<Spot> spotsOf(const RayCaster& mesh, const FrameTarget& target) {
   return spots;
 }
 
-/// The distance from the box's centre, in the direction `away`, at which the box fills the share `fill` of the picture.
+/// The distance of the camera from the centre of the target's box, in the direction `away`, at which the box fills the
+/// share `fill` of the picture.
 float distanceFor(const FrameTarget& target, glm::vec3 away, const RenderCamera& request, float fill) {
   const glm::vec3 right = glm::normalize(glm::cross(-away, glm::vec3(0, 1, 0))), up = glm::cross(right, -away);
   const float high = fill * std::tan(glm::radians(request.fov_degrees) / 2);
@@ -53,7 +55,7 @@ float distanceFor(const FrameTarget& target, glm::vec3 away, const RenderCamera&
   return distance;
 }
 
-/// A view that may be chosen; whether its camera position is open has not been tested yet.
+/// A possible view. Whether its camera position is outside all solids has not been tested yet.
 struct Candidate {
   FramedView view;
   float score = 0;
@@ -90,7 +92,8 @@ class Framer {
   std::vector<Candidate> candidates;
 
  private:
-  /// Scores a view by its visible share. Returns false if that share is too small, or a wall is close to the camera.
+  /// Scores a view by the visible share of the target. Returns false if the share is too small, or a wall is close to
+  /// the camera.
   bool judge(const std::vector<Spot>& spots, glm::vec3 from, float distance, Candidate& candidate) const {
     size_t facing = 0, seen = 0;
     for (const Spot& spot : spots) {
@@ -129,7 +132,7 @@ Result<std::optional<FramedView>> frameTargets(std::span<const RenderVertex> ver
   for (size_t index = 0; index < targets.size(); ++index) {
     const size_t first = framer.candidates.size();
     framer.tryAll(targets[index], index);
-    // Prefer targets near the scene's centre, because the scene's border may cut objects near it.
+    // Prefer targets near the scene's centre, because the border of the scene may cut objects.
     const float off = glm::distance(0.5f * (targets[index].lo + targets[index].hi), centre);
     for (size_t i = first; i < framer.candidates.size(); ++i) framer.candidates[i].score -= off / size;
   }

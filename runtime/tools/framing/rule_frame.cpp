@@ -13,13 +13,15 @@ namespace sgm::cli {
 namespace {
 
 constexpr size_t kMaxUses = 50'000;
-constexpr int32_t kSmallestCell = 16, kLargestCell = kUnitsPerMetre / 2;  // limits of the grid's cell edge, in units
-constexpr int32_t kCellsAcross = 12;   // minimum number of grid cells across a use, unless the cells would be too small
+// Minimum and maximum edge of a grid cell, in units.
+constexpr int32_t kSmallestCell = 16, kLargestCell = kUnitsPerMetre / 2;
+// Minimum number of grid cells across a use (application) of a rule, unless the cells would be too small.
+constexpr int32_t kCellsAcross = 12;
 constexpr int64_t kRegionCells = 352;  // number of grid cells along the region's longest edge
 
 Error refusal(std::string message) { return {Code::invalid_argument, std::move(message)}; }
 
-/// The imported modules by the names that the root file gives them.
+/// Maps the names of imports in the root file to indices of modules.
 std::map<std::string, uint32_t> importsOf(const Program& program) {
   std::map<std::string, uint32_t> imports;
   for (const DeclaredName& declared : declarationsOf(program.modules[0].text).names) {
@@ -30,7 +32,7 @@ std::map<std::string, uint32_t> importsOf(const Program& program) {
   return imports;
 }
 
-/// All names that --frame accepts, as the root file writes them, with the indices of their rules.
+/// Maps all names that --frame accepts, as the root file writes them, to indices of rules.
 std::map<std::string, uint32_t> namesOf(const Program& program) {
   std::map<std::string, uint32_t> names;
   const std::map<std::string, uint32_t> imports = importsOf(program);
@@ -43,7 +45,8 @@ std::map<std::string, uint32_t> namesOf(const Program& program) {
   return names;
 }
 
-/// The known name most similar to `wanted`, with its import's name in front even if `wanted` has none.
+/// The known name that is most similar to `wanted`. The result includes the name of the import, even if `wanted` does
+/// not.
 std::string nearName(const std::map<std::string, uint32_t>& names, const std::string& wanted) {
   Suggestion whole(wanted), bare(wanted);
   std::map<std::string, std::string> without;
@@ -85,14 +88,14 @@ double squareFromOrigin(const IntBox& box) {
 
 FrameRegion around(const IntBox& use) {
   const int64_t size = longestEdge(use);
-  // Long and thin uses need smaller cells, so that their thickness is resolved.
+  // Long and thin uses need smaller cells to resolve their thickness.
   int64_t detail = size;
   for (int axis = 0; axis < 3; ++axis) detail = std::min(detail, int64_t{use.hi[axis]} - use.lo[axis]);
   detail = std::max(detail, size / kCellsAcross);
   FrameRegion frame;
   frame.cell = kLargestCell;
   while (frame.cell > kSmallestCell && frame.cell * kCellsAcross > detail) frame.cell /= 2;
-  // Space around the use for the camera, and for the background.
+  // Add space around the use for the camera and the background.
   const int64_t wanted = std::max<int64_t>(6 * size, int64_t{24} * kUnitsPerMetre);
   const int64_t half = std::max(std::min(wanted, kRegionCells / 2 * frame.cell), size);
   for (int axis = 0; axis < 3; ++axis) {
@@ -116,8 +119,8 @@ Result<FramedRule> findFramedRule(const Program& program, std::string_view text)
   std::string name(last.name);
   if (!last.qualifier.empty()) name = fmt::format("{}.{}", last.qualifier, last.name);
   if (framed.by_path) {
-    // In an imported file, qualifiers are the names of that file's own imports, so the last name alone selects
-    // candidate rules; matchesPath() compares the whole path.
+    // A path may pass through imported files, where qualifiers are the names of those files' own imports. So select
+    // candidate rules by the last name only; matchesPath() compares the whole path later.
     for (uint32_t rule = 0; rule < program.rules.size(); ++rule)
       if (program.text(program.rules[rule].name) == last.name) framed.rules.push_back(rule);
   } else if (const auto found = names.find(name); found != names.end()) {

@@ -25,7 +25,7 @@ constexpr int kParseError = -32700, kInvalidRequest = -32600, kMethodNotFound = 
 constexpr const char* kNotOpen = "this document is not open: send textDocument/didOpen first";
 constexpr int kErrorSeverity = 1, kWarningSeverity = 2;
 
-/// URIs of the standard library's modules, whose text editors request with sgm/standardText.
+/// URI scheme of the standard library's modules. Editors request the text of such a URI with sgm/standardText.
 constexpr std::string_view kStandardUri = "sgm-std:/";
 
 Json toJson(const TextPosition& p) { return {{"line", p.line}, {"character", p.character}}; }
@@ -39,7 +39,8 @@ uint32_t offsetAt(const DocumentText& text, const Json& params) {
   return text.offset({position.at("line").get<uint32_t>(), position.at("character").get<uint32_t>()});
 }
 
-/// The text after a change. The server requests whole texts, but a client may send a replaced range as well.
+/// Applies a change of the client to a text. The server requests whole texts, but a client may also send the
+/// replacement of a range.
 DocumentText changed(const DocumentText& before, const Json& change) {
   std::string text = change.at("text").get<std::string>();
   if (!change.contains("range") || change.at("range").is_null()) return DocumentText(std::move(text));
@@ -55,7 +56,7 @@ std::string folderOf(const std::string& uri) {
   return std::filesystem::path(pathOfUri(uri)).parent_path().lexically_normal().string();
 }
 
-/// Resolves imports, to open documents if there is one, otherwise to files.
+/// Resolves an import to the open document with that path if there is one, otherwise to a file.
 class OpenImports : public ImportResolver {
  public:
   OpenImports(const std::map<std::string, DocumentText>& open, std::string folder)
@@ -74,7 +75,7 @@ class OpenImports : public ImportResolver {
   api::FolderImports files_;
 };
 
-/// The protocol's numbers for a kind of completion item, and for a kind of symbol.
+/// The protocol's numbers for a kind of declared name: the kind of completion item, and the kind of symbol.
 struct KindNumbers {
   int completion, symbol;
 };
@@ -138,7 +139,7 @@ std::vector<Json> LanguageServer::handle(const Json& message) {
   const bool object = message.is_object();
   const Json id = object && message.contains("id") ? message.at("id") : Json();
   const bool request = object && message.contains("id");
-  // Messages with a result or an error are answers; ignore them, because this server sends no requests.
+  // Messages with a result or an error are responses. Ignore them, because this server sends no requests.
   if (object && !message.contains("method") && (message.contains("result") || message.contains("error"))) return out;
   if (!object || !message.contains("method") || !message.at("method").is_string() ||
       (request && !id.is_string() && !id.is_number_integer())) {
@@ -148,7 +149,7 @@ std::vector<Json> LanguageServer::handle(const Json& message) {
   }
   const std::string method = message.at("method");
   const Json params = message.contains("params") ? message.at("params") : Json::object();
-  // The JSON library throws if params do not follow the protocol.
+  // The JSON library throws an exception if params do not follow the protocol.
   try {
     if (!request) {
       notify(method, params, out);
@@ -211,7 +212,7 @@ void LanguageServer::notify(const std::string& method, const Json& params, std::
     const std::string uri = params.at("textDocument").at("uri");
     const Json& changes = params.at("contentChanges");
     if (!documents_.contains(uri) || changes.empty()) return;
-    // Either all changes are applied or none: an invalid change throws before the document is replaced.
+    // Apply either all changes or none: an invalid change throws before the document is replaced.
     DocumentText text = documents_[uri];
     for (const Json& change : changes) text = changed(text, change);
     documents_[uri] = std::move(text);
@@ -266,7 +267,7 @@ void LanguageServer::diagnose(const std::string& uri, std::vector<Json>& out) {
     if (!of_file.contains(about) && !documents_.contains(about)) publish(about, Json::array(), out);
   before.clear();
   for (const auto& [about, diagnostics] : of_file) {
-    // Errors in another open document are published with that document's own diagnostics.
+    // Skip errors in another open document: they are published with the diagnostics of that document.
     if (about != uri && documents_.contains(about)) continue;
     publish(about, diagnostics, out);
     before.insert(about);

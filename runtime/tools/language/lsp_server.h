@@ -1,5 +1,6 @@
 #pragma once
-// The language server: turns each incoming message into outgoing messages. lsp.cpp reads and writes them.
+// The language server: handles each incoming message and returns the outgoing messages. lsp.cpp reads and writes the
+// messages.
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -13,37 +14,38 @@
 
 namespace sgm::cli {
 
-/// The Language Server Protocol 3.17 for grammars: diagnostics, completion, hover, definition, symbols, formatting. Not
-/// thread-safe. The texts of open documents take precedence over files; imports are searched in a document's folder.
+/// Implements the Language Server Protocol 3.17 for grammars: diagnostics, completion, hover, definition, symbols,
+/// formatting. The text of an open document takes precedence over its file; imports are searched in the folder of the
+/// importing document. Not thread-safe.
 class LanguageServer {
  public:
   using Json = nlohmann::json;
 
-  /// Handles any message and returns the messages to send: an error for a request that cannot be processed, nothing for
-  /// an unknown notification. May throw std::bad_alloc.
+  /// Handles a message and returns the messages to send: an error for a request that cannot be processed, none for an
+  /// unknown notification. May throw std::bad_alloc.
   std::vector<Json> handle(const Json& message);
-  /// The answer that the protocol requires to bytes that are not JSON.
+  /// The response that the protocol requires for bytes that are not JSON.
   static Json answerToGarbage(const std::string& why);
 
   bool ended() const { return state_ == State::ended; }
-  /// Whether the client sent the request `shutdown` before `exit`, as the protocol requires.
+  /// Whether the client sent the request `shutdown` before the notification `exit`, as the protocol requires.
   bool endedWell() const { return asked_to_end_; }
 
  private:
   enum class State { fresh, running, shutdown, ended };
-  /// A document that is open in the editor, or the file at a URI.
+  /// A document with its declarations: open in the editor, or read from a file.
   struct Source {
     std::string uri;
     DocumentText text;
     Declarations declarations;
   };
-  /// The declared name to which a place in a document refers.
+  /// A declared name to which a position in a document refers, and the document that declares it.
   struct Target {
     Source source;
     DeclaredName name;
   };
 
-  /// An error answer to a request: the protocol's error code, and the reason.
+  /// An error response to a request: the protocol's error code, and the reason.
   struct Refusal {
     int code;
     std::string why;
@@ -67,7 +69,7 @@ class LanguageServer {
   std::vector<Target> targetsAt(const std::string& uri, uint32_t offset) const;
   std::optional<Source> imported(const std::string& from_uri, const std::string& path) const;
   std::optional<std::string> textOf(const std::string& uri) const;
-  /// The open document that the parameters name; null if it is not open.
+  /// The open document that the parameters of a request name; null if it is not open.
   const DocumentText* document(const Json& params) const;
 
   State state_ = State::fresh;

@@ -12,7 +12,7 @@ uint32_t bytesOf(std::string_view rest) {
   return std::min(bytes, static_cast<uint32_t>(rest.size()));
 }
 
-constexpr uint32_t kBetweenMarks = 256;  // distance in bytes between places whose UTF-16 position is stored
+constexpr uint32_t kBetweenMarks = 256;  // bytes between two marks (offsets with a known column) in a long line
 
 int hexDigit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -81,7 +81,7 @@ std::string pathOfUri(std::string_view uri) {
   constexpr std::string_view kFile = "file://";
   if (!uri.starts_with(kFile)) return {};
   uri.remove_prefix(kFile.size());
-  // The host name, which is localhost or empty, is not part of the path.
+  // Skip the host name, which is localhost or empty: it is not part of the path.
   uri.remove_prefix(std::min(uri.find('/'), uri.size()));
   std::string path;
   for (size_t i = 0; i < uri.size(); ++i) {

@@ -75,7 +75,7 @@ constexpr std::array<Named, 56> kTable{{
     {"cirrus", {cloud, rgb(0.97f, 0.98f, 1.00f), 0.17f, 0.2f}},
 }};
 
-/// The effect of a tint word on a colour: the colour is mixed with another colour.
+/// A tint word, such as "ochre": the colour of the material is mixed with this colour.
 struct Tint {
   std::string_view word;
   Rgb colour;
@@ -97,7 +97,7 @@ constexpr std::array<Tint, 14> kTints{{{"white", rgb(0.80f, 0.79f, 0.76f), 0.85f
                                        {"dark", rgb(0.0f, 0.0f, 0.0f), 0.50f},
                                        {"pale", rgb(0.85f, 0.84f, 0.82f), 0.40f}}};
 
-/// Words that select a material of the table, for names that contain no word of the table.
+/// A word that stands for a material of the table, if a name contains no word of the table.
 struct Synonym {
   std::string_view word, means;
 };
@@ -127,7 +127,7 @@ const MaterialLook* meant(std::string_view word) {
   return found == kSynonyms.end() ? nullptr : known(found->means);
 }
 
-constexpr float kSmoothest = 0.05f;  // the minimum of MaterialLook's roughness
+constexpr float kSmoothest = 0.05f;  // minimum of MaterialLook::roughness
 
 void wet(MaterialLook& look) {
   for (float& share : look.colour) share *= 0.55f;
@@ -152,8 +152,8 @@ std::optional<MaterialLook> tinted(std::string_view name) {
   return look;
 }
 
-/// The look of the first word that names a material, otherwise of the first synonym; the other words tint it. So
-/// "brick_wall" is brick, while "wall" alone means plaster.
+/// The look of a name with several words ("old_brick_wall"): that of the first word in the table, otherwise that of the
+/// first synonym. A tint word and "wet" modify the look. So "brick_wall" is brick, while "wall" alone means plaster.
 std::optional<MaterialLook> byWords(std::string_view name) {
   const MaterialLook *named = nullptr, *meant_one = nullptr;
   bool is_wet = false;
@@ -178,7 +178,8 @@ std::optional<MaterialLook> byWords(std::string_view name) {
 }  // namespace
 
 std::optional<MaterialLook> findLook(std::string_view name) {
-  // Names come from grammars and may have any length. Repeated prefixes `wet_` have the same effect as one.
+  // Remove all prefixes `wet_` in a loop, without recursion: names come from grammars and may have any length. Repeated
+  // prefixes have the same effect as one.
   bool is_wet = false;
   for (; name.starts_with(kWetBefore); name.remove_prefix(kWetBefore.size())) is_wet = true;
   const MaterialLook* by_name = known(name);
@@ -192,7 +193,7 @@ MaterialLook lookOf(std::string_view name) {
   // A shape without a material gets a plain look that shows its form well.
   if (name.empty()) return {plain, rgb(0.50f, 0.48f, 0.44f), 0.9f, 0.5f};
   if (const std::optional<MaterialLook> found = byWords(name)) return *found;
-  uint32_t hash = 2166136261u;  // FNV-1a: the same tint for the same name on every machine
+  uint32_t hash = 2166136261u;  // FNV-1a hash, so that a name has the same tint on every machine
   for (const char c : name) hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
   MaterialLook look;
   for (unsigned i = 0; i < 3; ++i)

@@ -9,11 +9,11 @@
 namespace sgm::cli {
 namespace {
 
-/// Values beyond this are not shown, because differences between them could overflow.
+/// Values of larger magnitude are not shown, because differences between them could overflow.
 constexpr double kFarthest = 1e150;
 constexpr double kLeast = 1e-150;
 
-/// The smallest number of the form 1, 2 or 5 times a power of ten that is at least `least`.
+/// The smallest number that is at least `least` and equals 1, 2 or 5 times a power of ten.
 double niceStep(double least) {
   const double power = std::pow(10, std::floor(std::log10(least)));
   for (const double factor : {1.0, 2.0, 5.0})
@@ -52,7 +52,7 @@ Axis::Axis(const AxisStyle& style, std::span<const double> values, int most) : l
     low = std::min(low, 0.0);
     high = std::max(high, 0.0);
   }
-  // The axis has no length, or is too short for the precision of its numbers: widen it.
+  // Widen the axis if it has no length, or is too short for the precision of its numbers.
   const double size = std::max(std::abs(low), std::abs(high));
   if (logarithmic_ && high < low * 1.001) {
     low /= 2;
@@ -77,7 +77,7 @@ Axis::Axis(const AxisStyle& style, std::span<const double> values, int most) : l
 }
 
 void Axis::markLinear(int most, bool widen_low, bool widen_high) {
-  // Widening the ends to whole steps may need one mark more than fits: then use the next larger step.
+  // Extending the ends to whole steps may need one tick more than fits: then use the next larger step.
   double step = niceStep((high_ - low_) / most);
   const auto first = [&] { return std::floor(low_ / step + 1e-9); };
   const auto last = [&] { return std::ceil(high_ / step - 1e-9); };

@@ -1,5 +1,5 @@
 #pragma once
-// The scale of a chart's axis: maps values to positions on the axis, and chooses its tick marks.
+// One axis of a chart: maps values to positions, and chooses tick marks.
 
 #include <optional>
 #include <span>
@@ -11,11 +11,12 @@ namespace sgm::cli {
 struct AxisStyle {
   std::string title;
   bool logarithmic = false;
-  bool from_zero = false;  ///< for a linear axis: includes 0
-  /// Ends of the axis. Without a value, the smallest and largest shown value, widened to the next tick on a linear
-  /// axis.
+  bool from_zero = false;  ///< linear axis only: the axis includes 0
+  /// Ends of the axis. nullopt: the smallest or largest shown value; on a linear axis, this value is extended to the
+  /// next tick.
   std::optional<double> low, high;
-  /// Values of ticks, ascending, used if there is room for them; empty: round numbers are chosen.
+  /// Preferred tick values, in ascending order; some are skipped if there is not enough room. Empty: round numbers are
+  /// chosen.
   std::vector<double> marks{};
 };
 
@@ -26,14 +27,15 @@ struct Mark {
 
 class Axis {
  public:
-  /// values: the axis includes them, except those that it cannot show (not finite, or not above 0 on a logarithmic
-  /// axis). most: maximum number of ticks, at least 2.
+  /// values: the values to show. The axis covers all of them except those that it cannot show (not finite, or not above
+  /// 0 on a logarithmic axis). most: maximum number of ticks, at least 2.
   Axis(const AxisStyle& style, std::span<const double> values, int most);
 
   bool shows(double value) const;
-  /// Position of a value: 0 at the low end of the axis to 1 at its high end, clamped. Contract: shows(value).
+  /// Position of a value, from 0 at the low end of the axis to 1 at its high end; clamped to this range. Contract:
+  /// shows(value).
   double place(double value) const;
-  /// Ticks in ascending order, inside the axis.
+  /// All ticks, in ascending order of their values.
   const std::vector<Mark>& marks() const { return marks_; }
 
  private:
@@ -45,7 +47,8 @@ class Axis {
   std::vector<Mark> marks_;
 };
 
-/// A readable number with that many significant digits. It has no exponent between a thousandth and ten million.
+/// Formats a number readably, with about `digits` significant digits. Magnitudes from 1e-3 to below 1e7 are written
+/// without an exponent.
 std::string shortNumber(double value, int digits = 4);
 
 }  // namespace sgm::cli

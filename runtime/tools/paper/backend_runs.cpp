@@ -9,8 +9,8 @@
 namespace sgm::cli {
 namespace {
 
-/// named: the user has requested this backend. A software device that is not named is not measured, as `auto` does not
-/// choose it either.
+/// Opens one backend for measuring. named: the user has requested this backend. A software device is measured only if
+/// it is named, since `auto` does not choose it either.
 Result<BackendRun> makeBackendRun(const std::string& name, const std::string& backend, bool named, unsigned threads) {
   BackendRun backend_run;
   backend_run.name = name;

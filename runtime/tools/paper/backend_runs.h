@@ -1,5 +1,5 @@
 #pragma once
-// The backends of this machine that are compared in the stages of the paper's tables.
+// Opens the backends of this machine that are compared in the stages of the paper's tables.
 
 #include <string>
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace sgm::cli {
 
-/// Makes the sequential backend first, then one backend for each name, or all backends if there are no names.
-/// Unavailable backends are included with the reason, as are software devices that are not named. threads: number of
-/// CPU threads; 0: one for each processor.
+/// Opens the sequential backend first, then one backend for each name, or all backends if there are no names.
+/// Unavailable backends, and software devices that are not named, are included with the reason why they are not
+/// measured. threads: number of CPU threads; 0: one for each processor.
 Result<std::vector<BackendRun>> makeBackendRuns(const std::vector<std::string>& backends, unsigned threads);
 
 }  // namespace sgm::cli

@@ -1,4 +1,4 @@
-// sgm bench paper: measures the stages of the paper's tables on every backend.
+// `sgm bench paper`: measures the stages of the paper's tables on every backend.
 
 #include <fmt/core.h>
 
@@ -38,8 +38,9 @@ Exit benchPaper(const BenchOptions& options) {
   for (const StageModel& model : stageModels()) {
     const Result<int32_t> cell = cellOf(options, model);
     if (!cell) return reportError(cell.error());
-    // Each stage gets newly opened devices, as in a process that generates only this stage: software devices specialize
-    // their code for all kinds of instructions seen so far, and each kind costs time even in stages that do not use it.
+    // Open the devices anew for each stage, as in a process that generates only this stage: software devices specialize
+    // their code for all kinds of instructions that they have met, and each kind costs time even in stages that do not
+    // use it.
     const Result<std::vector<BackendRun>> backend_runs = makeBackendRuns(options.backends, options.threads);
     if (!backend_runs) return reportError(backend_runs.error());
     Result<StageResult> result = measure(options, model, *cell, *backend_runs);
@@ -51,7 +52,8 @@ Exit benchPaper(const BenchOptions& options) {
   } else {
     print(options, results);
   }
-  // A requested backend that is missing still has its row, but the exit status is an error, as for other commands.
+  // A requested backend that is missing has a row in the output, but also sets the exit status to an error, as in other
+  // commands.
   Exit status = Exit::done;
   for (const StageRow& row : results.back().rows) {
     if (!row.measured() && !options.backends.empty())

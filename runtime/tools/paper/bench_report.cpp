@@ -18,7 +18,7 @@ constexpr const char* kCounted =
     "is many flop; flop are not counted";
 constexpr const char* kNoWorkers = "the device does not report its number of processors";
 
-/// The contradictions that concern `sgm bench paper`.
+/// The texts of the paper's contradictions that concern the tables measured by `sgm bench paper`.
 std::vector<std::string> inconsistencies() {
   std::vector<std::string> texts;
   for (const Contradiction& found : contradictions())

@@ -1,5 +1,6 @@
 #pragma once
-// The output of `sgm bench paper`: our measured figures, the paper's printed figures, and the paper's contradictions.
+// The output of `sgm bench paper`: our measured values, the values printed in the paper, and the paper's
+// contradictions.
 
 #include <span>
 
@@ -9,7 +10,7 @@
 
 namespace sgm::cli {
 
-/// results: one for each stage, in the order of kPaperStages. In each result the first row is the sequential backend,
+/// results: one for each stage, in the order of kPaperStages. The first row of each result is the sequential backend,
 /// which must be measured.
 Json toJson(const BenchOptions& options, std::span<const StageResult> results);
 void print(const BenchOptions& options, std::span<const StageResult> results);

@@ -25,7 +25,7 @@ class BundledImports final : public ImportResolver {
   }
 
  private:
-  std::string folder_;  // empty, or with a slash at its end
+  std::string folder_;  // folder of the grammar in the bundle: empty, or with a slash at the end
 };
 
 }  // namespace

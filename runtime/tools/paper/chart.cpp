@@ -10,8 +10,8 @@ namespace sgm::cli {
 namespace {
 
 constexpr double kLineHeight = 18, kGap = 10, kLetter = 6.6;
-constexpr double kRoomAMark = 56;  // pixels that each mark of the x axis needs
-constexpr double kOverBar = 5;     // pixels between a bar and the number above it
+constexpr double kRoomAMark = 56;  // space for each tick label of the x axis, pixels
+constexpr double kOverBar = 5;     // space between a bar and the number above it, pixels
 constexpr double kRight = 18;
 
 std::string at(double value) { return fmt::format("{:.2f}", value); }
@@ -27,7 +27,8 @@ Markup line(double x0, double y0, double x1, double y1, std::string_view style) 
                       {{"x1", at(x0)}, {"y1", at(y0)}, {"x2", at(x1)}, {"y2", at(y1)}, {"class", std::string(style)}});
 }
 
-/// Each series has its own shape of mark, because its colour may not be distinguishable, for example on paper.
+/// The marker of a data point. Its shape depends on the series, because colours may not be distinguishable, for example
+/// in print.
 Markup pointMark(double x, double y, size_t series) {
   constexpr double kSize = 3.5;
   const std::string style = "mark " + colour(series);
@@ -47,7 +48,7 @@ Markup pointMark(double x, double y, size_t series) {
   }
 }
 
-/// The frame that both kinds of charts share: a legend above, axis marks on the left and below.
+/// The layout that line and bar charts share: the legend above the plot area, and tick labels to the left and below.
 struct Frame {
   double left = 0, right = 0, top = 0, bottom = 0;  ///< edges of the plot area
   Markup legend;
@@ -125,7 +126,8 @@ Markup svg(const std::string& title, int width, int height, const Markup& conten
          Markup{"\n"};
 }
 
-/// The SVG path through the points; for steps, with the area below them. floor: y of the area's lower edge.
+/// The SVG path data of a series. For Style::steps, the path encloses the area below the steps. floor: y coordinate of
+/// the lower edge of that area.
 std::string pathOf(const std::vector<std::array<double, 2>>& places, Series::Style style, double floor) {
   std::string path;
   for (size_t i = 0; i < places.size(); ++i) {
@@ -225,7 +227,7 @@ Markup drawn(const BarChart& chart) {
                                        {"width", at(0.94 * bar_width)},
                                        {"height", at(frame.bottom - top)},
                                        {"class", "bar " + colour(s)}});
-      // Omit a number that would touch its neighbours.
+      // Omit the number if it is wider than the bar, since it could overlap its neighbours.
       const std::string number = shortNumber(value, 3);
       if (textWidth(number) > bar_width) continue;
       const bool above = top - kOverBar > frame.top;

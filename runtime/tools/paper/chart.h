@@ -1,5 +1,5 @@
 #pragma once
-// Charts as inline SVG, in the colours and fonts of the surrounding page (report_style.h).
+// Makes charts as inline SVG, in the colours and fonts of the surrounding page (report_style.h).
 
 #include <array>
 #include <string>
@@ -10,33 +10,33 @@
 
 namespace sgm::cli {
 
-/// Number of colours for series in the page's style; further series repeat the colours.
+/// Number of series colours in the style sheet of the page; further series repeat the colours.
 inline constexpr size_t kSeriesColours = 6;
 
 struct Series {
   enum class Style {
-    line,    ///< a line with a mark at each point
-    dashed,  ///< a dashed line without marks, for claims and theoretical laws
+    line,    ///< a line with a marker at each point
+    dashed,  ///< a dashed line without markers, for theoretical laws and claims of the paper
     steps,   ///< a filled histogram: each value holds until the next point
   };
   std::string name;
-  std::vector<std::array<double, 2>> points;  ///< points that the axes cannot show are omitted
+  std::vector<std::array<double, 2>> points;  ///< (x, y); points that the axes cannot show are omitted
   Style style = Style::line;
 };
 
 struct LineChart {
-  std::string title;  ///< description for readers who cannot see the chart
+  std::string title;  ///< text alternative for readers who cannot see the chart
   AxisStyle x, y;
   std::vector<Series> series;
   int width = 640, height = 360;  ///< size of the SVG's view box, which the page scales; at least 200 by 150
 };
 Markup drawn(const LineChart& chart);
 
-/// Grouped bars: one bar of each series in each group.
+/// A chart of grouped bars: each group has one bar per series.
 struct BarChart {
   struct Bars {
     std::string name;
-    std::vector<double> values;  ///< one for each group, at least 0; non-finite values have no bar
+    std::vector<double> values;  ///< one value for each group, at least 0; non-finite values have no bar
   };
   std::string title;
   AxisStyle y;

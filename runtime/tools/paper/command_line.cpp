@@ -10,7 +10,7 @@ std::string commandOf(const std::string& name, const WorldOptions& options) {
   std::string line = fmt::format("sgm {} {}", name, options.file);
   if (options.seed != 0) line += fmt::format(" --seed {}", options.seed);
   for (const std::string& set : options.sets) line += " --set " + set;
-  // Joined with '=', because a value that begins with a minus sign would be parsed as an option.
+  // Join option and value with '=', because a value that begins with a minus sign would be parsed as an option.
   if (!options.region.empty()) line += " --region=" + options.region;
   if (options.cell) line += fmt::format(" --cell {}", *options.cell);
   if (options.density) line += fmt::format(" --ld {}", *options.density);

@@ -1,5 +1,5 @@
 #pragma once
-// The command line that repeats a measurement when it is run in the report's folder.
+// Makes the command line that repeats a measurement when it is run in the folder of the report.
 
 #include <string>
 

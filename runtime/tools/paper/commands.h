@@ -12,10 +12,11 @@ namespace sgm::cli {
 
 struct BenchOptions {
   uint64_t runs = 10;
-  std::vector<std::string> backends;  ///< names of backends; empty: all backends that `auto` might choose
+  /// Names of the backends to measure; empty: all backends that `auto` might choose.
+  std::vector<std::string> backends;
   unsigned threads = 0;
-  uint64_t cells = 256;        ///< number of grid cells along the edge of a stage's cube
-  std::optional<double> cell;  ///< edge of a grid cell in metres, instead of `cells`
+  uint64_t cells = 256;        ///< number of grid cells along the edge of the cube that is meshed
+  std::optional<double> cell;  ///< edge of a grid cell in metres; replaces `cells`
   bool json = false;
 };
 Exit benchPaper(const BenchOptions& options);

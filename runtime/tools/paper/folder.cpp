@@ -28,8 +28,8 @@ Error failure(const fs::path& path, const std::string& why) {
   return Error{Code::io, fmt::format("cannot write {}: {}", path.string(), why)};
 }
 
-/// A new folder beside the target; the destructor removes it with its contents, unless it has been renamed to the
-/// target.
+/// A temporary folder beside the target. The destructor removes the folder with its contents, unless keep() was called
+/// after renaming it to the target.
 class Beside {
  public:
   static Result<Beside> create(const fs::path& target) {
@@ -51,7 +51,7 @@ class Beside {
   fs::path path_;
 };
 
-/// The path without a trailing slash, after which the path would have no file name.
+/// The normalized path without a trailing slash, since a path that ends with a slash has no file name.
 fs::path cleaned(const fs::path& target) {
   const fs::path path = target.lexically_normal();
   return path.has_filename() ? path : path.parent_path();
@@ -74,7 +74,7 @@ FolderFile manifestOf(const std::vector<FolderFile>& files) {
   return {kReportManifest, std::move(lines)};
 }
 
-/// The checksums in a report's manifest, by path; nullopt if there is no manifest.
+/// Reads the manifest of a report. Returns the checksums by path; nullopt if there is no valid manifest.
 std::optional<std::map<std::string, std::string>> sumsOf(const fs::path& report) {
   const std::optional<std::string> manifest = contentOf(report / kReportManifest);
   if (!manifest) return std::nullopt;
@@ -89,8 +89,7 @@ std::optional<std::map<std::string, std::string>> sumsOf(const fs::path& report)
   return sums;
 }
 
-/// Checks that a folder is empty or an unchanged report, so that it may be removed. target: the folder's name in
-/// messages.
+/// Checks that a folder is empty or an unchanged report, so that it may be removed. target: path for messages.
 Result<void> checkReplaceable(const fs::path& folder, const fs::path& target) {
   std::error_code why;
   fs::recursive_directory_iterator entries(folder, why);
@@ -126,7 +125,7 @@ Result<void> exchange(const fs::path& a, const fs::path& b, const fs::path& targ
   return failure(target, cannot ? "its file system cannot exchange folders: remove it first" : systemMessage(errno));
 }
 
-/// Checks the target. Returns whether a folder exists there, for which the new report must be exchanged.
+/// Checks the target. Returns true if it is a non-empty folder, which must be exchanged for the new report.
 Result<bool> checkTarget(const fs::path& target) {
   std::error_code why;
   const fs::file_status status = fs::symlink_status(target, why);
@@ -149,7 +148,7 @@ Result<void> writeFile(const fs::path& path, const std::string& bytes) {
   return file->commit();
 }
 
-/// Renames the new folder to the target.
+/// Moves the new folder to the target path.
 Result<void> takePlace(Beside& made, const fs::path& target) {
   std::error_code why;
   fs::permissions(made.path(),
@@ -157,14 +156,15 @@ Result<void> takePlace(Beside& made, const fs::path& target) {
                       fs::perms::others_exec,
                   why);
   if (why) return failure(target, systemMessage(why));
-  // Renaming replaces an empty folder; only other folders need an exchange.
+  // A rename succeeds if the target does not exist or is an empty folder; any other folder must be exchanged.
   fs::rename(made.path(), target, why);
   if (!why) {
     made.keep();
     return {};
   }
   if (const Result<void> exchanged = exchange(made.path(), target, target); !exchanged) return exchanged.error();
-  // After the exchange, `made` is the old folder. It may have changed since the first check, so check again.
+  // After the exchange, `made` is the old folder. It may have changed since the first check, so check again before it
+  // is removed.
   const Result<void> replaceable = checkReplaceable(made.path(), target);
   if (!replaceable) {
     if (const Result<void> back = exchange(made.path(), target, target); !back) {

@@ -1,5 +1,5 @@
 #pragma once
-// Writes a folder of files that appears completely or not at all.
+// Writes a folder of files atomically: it appears completely or not at all.
 
 #include <filesystem>
 #include <string>
@@ -15,23 +15,24 @@ struct FolderFile {
   std::string bytes;
 };
 
-/// File names of the page and of the manifest, and the manifest's first line, which identifies a folder as a report.
-/// Each further line of the manifest is the XXH64 of a file's bytes in 16 hexadecimal digits, two spaces, and its path.
+/// File names of the page and of the manifest, and the first line of the manifest, by which a folder is recognized as a
+/// report. Each further line of the manifest is the XXH64 of a file's bytes in 16 hexadecimal digits, two spaces, and
+/// the path of the file.
 inline constexpr const char* kReportPage = "index.html";
 inline constexpr const char* kReportManifest = "manifest.txt";
 inline constexpr const char* kReportSign = "The files of a report of sgm paper by XXH64";
 
-/// Checks whether a report may be written to `target`: it does not exist, or is an empty folder, or an earlier report
-/// in which nothing was added or changed since, at any depth. Leaves no files. signals: see writeReportFolder. Error:
-/// io if something else is at `target`, the parent folder is not writable, or its file system cannot exchange an
+/// Checks whether a report may be written to `target`: the path does not exist, or is an empty folder, or is an earlier
+/// report to which no file was added and in which no file was changed. Leaves no files. signals: see writeReportFolder.
+/// Error: io if anything else is at `target`, the parent folder is not writable, or its file system cannot exchange an
 /// earlier report for a new one.
 Result<void> checkReportFolder(const std::filesystem::path& target, EndingSignals* signals = nullptr);
 
-/// Writes the files and their manifest into a folder beside the target, and then renames it to the target in one step,
-/// which removes an earlier report. After any failure, even if the process is killed, the target is completely old or
-/// completely new. Leaves no other files. signals: defers ending signals while files would be left behind; null: no
-/// signal is deferred. Errors: as checkReportFolder; io, for example if the disk is full.
-/// checkReportFolder; io, for example if the disk is full.
+/// Writes the files and their manifest into a temporary folder beside the target, and then renames this folder to the
+/// target in one step, which replaces an earlier report. After any failure, even if the process is killed, the target
+/// is completely old or completely new. Unless the process is killed, no other files remain. signals: defers ending
+/// signals while temporary files exist; null: signals are not deferred. Errors: those of checkReportFolder; io, for
+/// example if the disk is full.
 Result<void> writeReportFolder(const std::filesystem::path& target, std::vector<FolderFile> files,
                                EndingSignals* signals = nullptr);
 

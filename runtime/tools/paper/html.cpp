@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-/// Number of bytes of the text's first character; 0 if it is not valid UTF-8, or not allowed in XML.
+/// Number of bytes of the first character of `text`; 0 if the character is not valid UTF-8, or is not allowed in XML.
 size_t characterAt(std::string_view text) {
   const size_t bytes = utf8Size(text);
   const bool control = bytes == 1 && static_cast<unsigned char>(text[0]) < 0x20 && text[0] != '\n' && text[0] != '\t';

@@ -1,6 +1,6 @@
 #pragma once
-// Builds HTML that is well-formed by construction: text is escaped, and each opened element is closed. The result is
-// also well-formed XML, so that any parser can read it.
+// Builds HTML that is well-formed by construction: text is escaped, and every opened element is closed. The result is
+// also well-formed XML, so that any XML parser can read it.
 
 #include <string>
 #include <string_view>
@@ -9,10 +9,11 @@
 
 namespace sgm::cli {
 
-/// Escapes text for content and quoted attributes. Invalid UTF-8, and characters that XML forbids, become U+FFFD.
+/// Escapes text for use as element content and in quoted attributes. Invalid UTF-8, and characters that XML forbids,
+/// become U+FFFD.
 std::string escaped(std::string_view text);
 
-/// A sequence of whole elements and escaped text.
+/// A piece of HTML: a sequence of complete elements and escaped text.
 struct Markup {
   std::string html;
 
@@ -31,12 +32,12 @@ Markup element(std::string_view tag, const Attributes& attributes, const Markup&
 inline Markup element(std::string_view tag, const Markup& content) { return element(tag, {}, content); }
 inline Markup element(std::string_view tag, std::string_view plain) { return element(tag, {}, text(plain)); }
 inline Markup element(std::string_view tag, const char* plain) { return element(tag, std::string_view(plain)); }
-/// An element that never has content: img, rect, path.
+/// Makes an element without content, such as img, rect or path.
 Markup emptyElement(std::string_view tag, const Attributes& attributes);
 
-/// A table; its first row is the head, and the first cell of each other row is that row's header.
+/// Makes a table. The first row is the head; the first cell of each other row is its row header.
 Markup table(std::string_view caption, const std::vector<std::vector<Markup>>& rows);
-/// A table whose cells are plain text, otherwise as above.
+/// Makes a table as above, but from plain text.
 Markup table(std::string_view caption, const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace sgm::cli

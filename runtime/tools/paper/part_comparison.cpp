@@ -1,4 +1,4 @@
-// Table 4: one grammar represents each system, and each YES is measured.
+// Table 4: represents each system by a grammar, and checks each YES of the table by a measurement.
 
 #include <fmt/core.h>
 
@@ -18,11 +18,11 @@
 namespace sgm::cli {
 namespace {
 
-/// The result of our own measurement for a criterion.
+/// The result of our measurement for one criterion of table 4.
 struct Finding {
   enum class Said { yes, no, none } said = Said::none;
   std::string what;
-  std::string command;  ///< command that repeats the measurement; empty: none
+  std::string command;  ///< command line that repeats the measurement; empty: none
 };
 using Findings = std::array<Finding, kCriteria>;
 
@@ -41,7 +41,7 @@ WorldOptions optionsFor(const ReportContext& report_context, const ComparedSyste
 
 size_t trianglesOf(const WorldMesh& mesh) { return mesh.indices.size() / 3; }
 
-/// Measures how another value of a parameter changes the mesh. set: assignment NAME=VALUE.
+/// Tests whether another value of a parameter changes the mesh. set: assignment NAME=VALUE.
 Result<Finding> changedBy(const ReportContext& report_context, const WorldOptions& options, const Region& base,
                           const char* set) {
   WorldOptions changed = options;
@@ -155,7 +155,7 @@ const char* signOf(const Finding& finding) {
   return "";
 }
 
-/// The part of the page about one system: its picture, the reasons, and the commands.
+/// The section of the page about one system: its picture, the reasons, the measurements, and the commands.
 Markup cardOf(const ComparedSystem& system, const Findings& found, const Markup& picture) {
   std::vector<std::vector<std::string>> rows{{"", "paper", "ours", "measured"}};
   Markup commands;
@@ -180,7 +180,7 @@ Result<Markup> pictureOf(ReportContext& report_context, const ComparedSystem& sy
   options.seed = system.view_seed;
   if (system.view_set != nullptr) options.sets.emplace_back(system.view_set);
   options.sharp = system.sharp;
-  // Inside a cave, a wider angle shows more.
+  // Use a wider field of view inside caves, to show more of them.
   options.fov = saysYes(system.printed[kCaves]) && !saysYes(system.printed[kClouds]) ? 68 : 48;
   options.size = report_context.pick("720x440", "400x250");
   const std::string file = ReportContext::grammarOf(options);

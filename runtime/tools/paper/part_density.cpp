@@ -17,11 +17,11 @@
 namespace sgm::cli {
 namespace {
 
-/// A model that is meshed at increasing densities, each twice the previous one.
+/// A model that is meshed at several densities, each twice the previous density.
 struct Model {
   const char *name, *grammar;
   uint64_t seed;
-  const char* region;  ///< region as for --region; empty: all of a finite world
+  const char* region;  ///< region in the form of --region; empty: the whole finite world
   double coarsest;     ///< edge of the grid cells at the lowest density, metres
   std::vector<std::string> sets{};
 };
@@ -32,7 +32,7 @@ struct Sample {
 
 struct Sampled {
   const Model* model = nullptr;
-  std::vector<Sample> samples;  ///< one for each density, the coarsest first; the cell size is halved each time
+  std::vector<Sample> samples;  ///< one sample for each density, the coarsest first; each halves the cell size
 };
 
 Result<Sampled> sample(ReportContext& report_context, const Model& model, int steps,
@@ -53,9 +53,9 @@ Result<Sampled> sample(ReportContext& report_context, const Model& model, int st
   return sampled;
 }
 
-/// The observed order of convergence: log2 of the ratio of the last two changes. It is 2 for quadratic convergence in
-/// the cell size, and 0 for a logarithm, whose changes are equal. nullopt if a change is 0, or the changes differ in
-/// sign.
+/// The observed order of convergence: log2 of the ratio of the last two changes of a value. The order is 2 for
+/// quadratic convergence in the cell size, and 0 for logarithmic growth, whose changes are equal. nullopt if a change
+/// is 0, or the two changes differ in sign.
 std::optional<double> observedOrder(std::span<const double> values) {
   if (values.size() < 3) return std::nullopt;
   const double a = values[values.size() - 3], b = values[values.size() - 2], c = values.back();
@@ -76,7 +76,8 @@ std::vector<double> valuesOf(const Sampled& sampled, double Sample::*of) {
   return values;
 }
 
-/// Adds chart, table and numbers of one measure, for all models, to the exhibit. of: the member with the measure.
+/// Adds the chart, the table and the numbers of one measure of all models to the report item. of: the member that
+/// contains the measure.
 void compare(const std::vector<Sampled>& all, double Sample::*of, const std::string& what, const std::string& unit,
              ReportItem& report_item) {
   LineChart chart;
@@ -119,9 +120,12 @@ void compare(const std::vector<Sampled>& all, double Sample::*of, const std::str
   report_item.numbers["models"] = std::move(models);
 }
 
-/// Errors for a ball with a radius of 5 m, whose area and volume are known.
+/// Errors of the measures of a ball with a radius of 5 m, whose exact area and volume are known.
 struct BallErrors {
-  double cell = 0, area = 0, volume = 0, all = 0, any = 0, centre = 0;  ///< cell: metres; the others: relative errors
+  /// cell: edge of a grid cell, metres. The others are relative errors: of the mesh's area and volume, and of the
+  /// volume that is found by counting cubes with all corners inside the ball (all), with any corner inside (any), or
+  /// with the centre inside (centre).
+  double cell = 0, area = 0, volume = 0, all = 0, any = 0, centre = 0;
 };
 
 Result<std::vector<BallErrors>> ballErrors(ReportContext& report_context, std::vector<std::string>& commands) {
@@ -272,8 +276,7 @@ ReportItems densityPart(ReportContext& report_context) {
   const std::vector<Model> models{{"cave", "cave.sgm", 7, "64,64,64:192,192,192", 2},
                                   {"cloud", "cloud.sgm", 3, "0,768,0:768,1536,768", 24},
                                   {"building", "storeys.sgm", 0, "", 1}};
-  // Only the surroundings of the block are meshed: its whole world would be half a million chunks at the finest cell
-  // size.
+  // Mesh only the surroundings of the block: at the finest cell size, the whole world would have half a million chunks.
   constexpr const char* kBlock = "-32,-32,-32:32,32,32";
   const std::vector<Model> tunnels{{"smooth walls", "tunnels.sgm", 0, kBlock, 1, {"tunnels=2", "rough=0"}},
                                    {"rough walls", "tunnels.sgm", 0, kBlock, 1, {"tunnels=2", "rough=0.8"}}};

@@ -1,5 +1,5 @@
 // Figures 14 and 15: histograms of dihedral angles at several densities of the mesh, histograms of the main classes,
-// and the accuracy of classification by them.
+// and the accuracy of classification with these histograms.
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -25,7 +25,7 @@ using measure::HistogramMode;
 
 constexpr HistogramMode kModes[] = {HistogramMode::printed, HistogramMode::corrected, HistogramMode::curvature};
 
-/// The histogram as a series of steps over v, the quantity that equation 14 divides into bins.
+/// Converts a histogram to a step curve over v, the quantity that equation 14 of the paper divides into bins.
 Series stepsOf(const std::string& name, std::span<const double> shares, int32_t first_bin, uint32_t bins) {
   Series series{name, {}, Series::Style::steps};
   for (size_t i = 0; i <= shares.size(); ++i) {
@@ -64,7 +64,7 @@ struct Density {
   std::string verdict;
 };
 
-/// The class that `sgm classify` reports without options, with the built-in reference histograms.
+/// The class that `sgm classify` reports with default options and the built-in reference histograms.
 Result<std::string> verdictOf(const asset::TriangleMesh& mesh, const masters::MasterSet& set, JobSystem& jobs) {
   const measure::MasterKey key = masters::defaultKey();
   const Result<Histogram> histogram = measure::innerHistogram({mesh.points, mesh.triangles}, key.settings(), jobs);
@@ -189,7 +189,7 @@ Result<ReportItem> densityItem(ReportContext& report_context) {
 
 // Figure 15.
 
-/// First seed of test models. The built-in reference histograms were made with other seeds.
+/// First seed of the test models. The built-in reference histograms were made with other seeds.
 constexpr uint64_t kHeldOut = uint64_t{1} << 32;
 
 std::vector<masters::Family> familiesFor(const ReportContext& report_context) {
@@ -201,7 +201,7 @@ std::vector<masters::Family> familiesFor(const ReportContext& report_context) {
   return families;
 }
 
-/// Makes the models of the families. families: must outlive the result.
+/// Makes test models of the families, with their histograms. families: must outlive the result.
 Result<std::vector<masters::Specimen>> specimens(ReportContext& report_context,
                                                  std::span<const masters::Family> families) {
   WorldOptions options;
@@ -219,12 +219,12 @@ Result<std::vector<masters::Specimen>> specimens(ReportContext& report_context,
 /// Results of classifying models of known class with the reference histograms of one key.
 struct Judged {
   measure::MasterKey key;
-  std::map<std::string, std::map<std::string, int>> verdicts;  ///< numbers of verdicts, by true class, then by verdict
-  /// For each true class, and each class compared with it, the sum of the smallest errors.
+  std::map<std::string, std::map<std::string, int>> verdicts;  ///< numbers of models by true class, then by verdict
+  /// For each true class, and each class that models were compared with, the sum of ClassDistance::mse over the models.
   std::map<std::string, std::map<std::string, double>> mse;
   std::map<std::string, std::vector<double>> mean;  ///< mean histogram of each true class
   std::map<std::string, int> models;
-  int right = 0, all = 0;  ///< numbers of models without noise: classified correctly, and in all
+  int right = 0, all = 0;  ///< models that are not noise: number classified correctly, and total
 };
 
 Result<Judged> judge(std::span<const masters::Specimen> specimens, size_t key_number, const masters::MasterSet& set) {
@@ -307,7 +307,7 @@ Result<ReportItem> classesItem(ReportContext& report_context) {
   Markup charts, tables;
   Json judgements = Json::array();
   for (const HistogramMode mode : kModes) {
-    // For the paper's own modes use one cell per metre, because models of every class exist for that density.
+    // Use one cell per metre for the two modes of the paper, because models of every class exist at that density.
     const auto key = std::ranges::find_if(
         keys, [mode](const measure::MasterKey& k) { return k.mode == mode && (k.density == 0 || k.density == 1); });
     const Result<Judged> judged = judge(*models, static_cast<size_t>(key - keys.begin()), set);

@@ -1,4 +1,4 @@
-// Figure 12: separate objects in buildings, caves and clouds, and a cloud with ten of them.
+// Figure 12: numbers of separate objects in buildings, caves and clouds, and a cloud with ten separate objects.
 
 #include <fmt/core.h>
 
@@ -16,8 +16,8 @@
 namespace sgm::cli {
 namespace {
 
-constexpr uint64_t kWanted = 10;     // the paper: "10 separate elements"
-constexpr uint64_t kMaxClouds = 64;  // maximum number of clouds that are searched
+constexpr uint64_t kWanted = 10;     // number of objects of the cloud in the paper: "10 separate elements"
+constexpr uint64_t kMaxClouds = 64;  // maximum number of seeds that are tried to find such a cloud
 
 Result<uint64_t> objectsOf(ReportContext& report_context, const WorldOptions& options) {
   const Result<Region> region = report_context.mesh(options);
@@ -36,7 +36,8 @@ constexpr Kind kKinds[] = {{"architecture", "building.sgm", "", 0.25, "balconies
                            {"caves", "cave.sgm", "0,0,0:192,192,192", 1.5, "boxy=0.3"},
                            {"clouds", "cloud.sgm", "0,768,0:2304,1536,2304", 24, "cover=80%"}};
 
-/// A scattered cloud with ten separate objects. Seeds are searched in order, from the seed of the report on.
+/// Searches for a scattered cloud with ten separate objects. Tries seeds in order, from the seed of the report on;
+/// nullopt if none is found.
 Result<std::optional<RenderOptions>> cloudOfTen(ReportContext& report_context) {
   RenderOptions options = report_context.on<RenderOptions>("paper/scattered.sgm");
   options.cell = report_context.pick(4.0, 8.0);

@@ -72,7 +72,7 @@ ReportItems cloudPart(ReportContext& report_context) {
 
 namespace {
 
-/// Volume and area of the hall for one value t of the morph parameter.
+/// Volume and area of the hall for one value of the morph parameter t (0..1).
 struct Morphed {
   double t = 0, volume = 0, area = 0;
 };

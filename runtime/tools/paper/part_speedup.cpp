@@ -31,14 +31,15 @@ std::string whoIs(const StageRow& row) {
 
 constexpr double kCell = 0.5;  // edge of a grid cell, in metres
 
-/// The measurement for one number of position points.
+/// The measurement for one number of position points, the parameter of figures 1 and 2.
 struct PointsRun {
   int points = 0;
-  size_t nodes = 0, instructions = 0;  ///< numbers of nodes and instructions in the field program of all points
+  /// Sizes of the field program that contains all points: shape nodes, and instructions.
+  size_t nodes = 0, instructions = 0;
   StageResult result;
 };
 
-/// Counts nodes and instructions of the world's field program.
+/// Counts the shape nodes and the instructions of the field program, and stores the numbers in `run`.
 Result<void> countNodes(PointsRun& run, bool hybrid) {
   const CompileResult compiled = compileBundled("paper/points.sgm");
   if (!compiled.program) return Error{Code::bad_input, renderDiagnostics(compiled)};
@@ -86,7 +87,7 @@ Result<std::vector<PointsRun>> measurePoints(ReportContext& report_context, bool
   return all;
 }
 
-/// Increase of a quantity for each position point, between the run with the fewest points and the run with the most.
+/// Increase of a quantity per position point, from the run with the fewest points to the run with the most.
 double slope(const std::vector<PointsRun>& runs, size_t PointsRun::*of) {
   return static_cast<double>(runs.back().*of - runs.front().*of) / (runs.back().points - runs.front().points);
 }
@@ -162,7 +163,8 @@ ReportItem pointsItem(ReportContext& report_context, bool hybrid, const std::vec
   return report_item;
 }
 
-/// Our equivalent of the paper's comparison of 14 with 41 nodes.
+/// Compares our numbers of shape nodes and instructions per position point for the morphing and the hybrid rule, as the
+/// paper compares 41 nodes (morphing) with 14 (hybrid).
 Markup nodesCompared(const std::vector<PointsRun>& morphing, const std::vector<PointsRun>& hybrid) {
   const double before = slope(morphing, &PointsRun::nodes), after = slope(hybrid, &PointsRun::nodes);
   BarChart chart;
@@ -203,7 +205,7 @@ Result<std::vector<StageResult>> measureStages(ReportContext& report_context, co
 
 constexpr std::array<const char*, 3> kStageNames = {"A – cave", "B – cloud", "C – building"};
 
-/// A table of one figure: a column for each stage, and a row for each contender after the paper's own row.
+/// A table of one quantity: a column for each stage, a row with the paper's values, and a row for each backend run.
 Markup stageTable(const std::vector<StageResult>& results, const std::string& caption,
                   std::vector<std::vector<std::string>> rows,
                   const std::function<std::string(const StageResult&, const StageRow&)>& figure) {

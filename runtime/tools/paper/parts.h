@@ -1,5 +1,5 @@
 #pragma once
-// Functions that make the parts of the report. Each part can be made separately.
+// The parts of the report, and the functions that make them independently of each other.
 
 #include <vector>
 

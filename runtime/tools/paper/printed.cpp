@@ -7,7 +7,7 @@
 namespace sgm::cli {
 namespace {
 
-/// A value of each stage as text: "1.0, 2.0 and 3.0".
+/// Formats one value for each stage: "1.0, 2.0 and 3.0".
 template <class Value>
 std::string ofEach(int decimals, Value value) {
   return fmt::format("{:.{}f}, {:.{}f} and {:.{}f}", value(kPaperStages[0]), decimals, value(kPaperStages[1]), decimals,

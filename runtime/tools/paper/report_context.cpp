@@ -49,7 +49,7 @@ Result<measure::MeshMeasures> ReportContext::measure(const MeasureOptions& optio
 Result<Markup> ReportContext::picture(RenderOptions options, const std::string& name, const std::string& alt,
                                       const std::string& caption, std::vector<std::string>& commands) {
   if (renderer_ == nullptr) return Markup{};
-  // The command writes the picture beside the report's folder, which may contain no other files.
+  // The printed command must write its picture outside the report's folder, which may contain no additional files.
   options.out = "../" + name + ".png";
   std::optional<RegionDensity> density;
   RegionPlan plan = picturePlan(options, density);

@@ -1,5 +1,5 @@
 #pragma once
-// One figure or table of the paper in the report: the printed one, and our reproduction of it.
+// One figure or table in the report: the text printed in the paper, and our reproduction.
 
 #include <string>
 #include <vector>
@@ -10,11 +10,11 @@
 namespace sgm::cli {
 
 struct ReportItem {
-  std::string id;                     ///< name such as "figure-7", to which Contradiction::places refers
+  std::string id;                     ///< identifier such as "figure-7", which Contradiction::places also uses
   std::string title;                  ///< "Figure 7. Clouds"
-  std::vector<std::string> printed;   ///< quotations from the figure's caption and the paper's text
+  std::vector<std::string> printed;   ///< quotations from the paper: the caption of the figure, and related text
   Markup ours;                        ///< our reproduction: pictures, charts and tables, with explanations
-  std::string measured;               ///< the method, in a sentence or two
+  std::string measured;               ///< description of how the numbers were measured, in a sentence or two
   std::vector<std::string> commands;  ///< commands that repeat only this figure or table
   Json numbers;                       ///< the measured numbers, as a JSON object
 };

@@ -20,7 +20,7 @@ bool isAt(const Contradiction& found, std::string_view place) {
   return std::ranges::any_of(found.places, [place](const char* at) { return at == place; });
 }
 
-/// The readable form of a place: "figure-10" becomes "figure 10".
+/// The readable form of a name in Contradiction::places: "figure-10" becomes "figure 10".
 std::string placeName(std::string place) {
   std::ranges::replace(place, '-', ' ');
   return place;

@@ -1,5 +1,5 @@
 #pragma once
-// The report as one self-contained page with pictures: no network, no script.
+// Writes the report as one HTML page with pictures, which needs neither network nor scripts.
 
 #include <span>
 #include <string>
@@ -14,7 +14,7 @@ struct ReportFacts {
   std::vector<std::pair<std::string, std::string>> machine;  ///< name and value of each property of the machine
   bool quick = false;
   bool pictures = true;
-  bool whole = true;  ///< the report includes all parts
+  bool whole = true;  ///< true if the report includes all parts
 };
 
 std::string reportPage(const ReportFacts& facts, std::span<const ReportItem> report_items);

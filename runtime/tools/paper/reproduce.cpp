@@ -1,4 +1,4 @@
-// Sgm paper: makes all parts of the report.
+// `sgm paper`: makes all parts of the report.
 
 #include <fmt/core.h>
 
@@ -18,7 +18,7 @@
 namespace sgm::cli {
 namespace {
 
-/// The position of an exhibit in the report: figures by number, then tables by number.
+/// Sort key of a report item: figures by number first, then tables by number.
 std::pair<bool, int> orderOf(const ReportItem& report_item) {
   return {report_item.id.starts_with("table"), std::stoi(report_item.id.substr(report_item.id.find('-') + 1))};
 }
@@ -43,7 +43,7 @@ Result<std::vector<ReportItem>> makeReportItems(const PaperOptions& options, Rep
   return all;
 }
 
-/// The name of the device that meshes. Error if the requested backend is missing.
+/// The name of the device on which the report is meshed. Error if the requested backend is missing.
 Result<std::string> meshingDevice(const PaperOptions& options, JobSystem& jobs) {
   WorldOptions world;
   world.backend = options.backend;
@@ -70,7 +70,7 @@ std::vector<std::string> paperParts() {
 
 Exit reproducePaper(const PaperOptions& options) {
   const Stopwatch watch;
-  // Report errors of the output folder before minutes of work.
+  // Check the output folder first, since making the report takes minutes.
   if (const Result<void> writable = checkReportFolder(options.out, &ending_signals); !writable)
     return reportError(writable.error());
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);

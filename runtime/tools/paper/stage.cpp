@@ -18,9 +18,9 @@ namespace sgm::cli {
 namespace {
 
 constexpr uint64_t kMaxChunks = 65536;
-constexpr size_t kDerivedBytes = size_t{512} << 20;  // large enough for the derived cells of any stage
+constexpr size_t kDerivedBytes = size_t{512} << 20;  // size of the cache of derived cells; large enough for any stage
 
-/// The world settings and the cube of a stage, from which it can be generated any number of times.
+/// The world settings of a stage (a model of the paper's tables), and the cube of that world that each run meshes.
 struct StageScene {
   WorldFieldSettings settings;
   IntBox cube;
@@ -77,7 +77,7 @@ Result<StageRun> generate(const StageScene& scene, const WorldField& world, cons
   return run;
 }
 
-/// Meshes the stage as the CPU backend does, with an evaluator that counts operations.
+/// Counts the operations of a stage by meshing it as the CPU backend does, but with an evaluator that counts.
 Result<uint64_t> countOperations(const StageScene& scene, const WorldField& world, JobSystem& jobs) {
   const Result<std::pmr::vector<ChunkKey>> keys = scene.keys(world);
   if (!keys) return keys.error();
@@ -85,7 +85,7 @@ Result<uint64_t> countOperations(const StageScene& scene, const WorldField& worl
   std::vector<std::optional<Error>> errors(keys->size());
   parallelFor(jobs, keys->size(), [&](size_t i) {
     ChunkJob job;
-    // A previous run has checked that every chunk lies inside the world.
+    // Dereference without a check: a previous run has verified that every chunk lies inside the world.
     job.grid = *chunkGrid(world, (*keys)[i]);
     Result<std::shared_ptr<const FieldProgram>> field = world.compile(chunkBox(job.grid), 0);
     if (!field) {
@@ -147,7 +147,7 @@ Result<StageResult> measureStage(const StageModel& model, int32_t cell, uint64_t
     row.reason = backend_run.reason;
     row.workers = backend_run.workers;
   }
-  // Each contender has its own world, and derives its cells in its first run.
+  // Each backend run has its own world, so each derives the grammar cells itself in its first run.
   std::deque<WorldField> worlds;
   for (size_t i = 0; i < backend_runs.size(); ++i)
     worlds.emplace_back(scene->settings, std::pmr::new_delete_resource());

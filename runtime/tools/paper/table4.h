@@ -1,5 +1,6 @@
 #pragma once
-// Table 4 of the paper as printed, and the grammar and options that represent each of its systems in our measurements.
+// Table 4 of the paper as printed, and for each system in it, the grammar and options that represent it in our
+// measurements.
 
 #include <array>
 #include <span>
@@ -32,9 +33,10 @@ inline constexpr std::array<const char*, kCriteria> kCriterionNames = {"Clouds",
                                                                        "Overlapping vertices removed",
                                                                        "No holes"};
 
-/// A part of a world with several kinds of objects; the part is classified as a single kind.
+/// A part of the measured region that contains one kind of object and is classified separately, since the whole region
+/// contains several kinds.
 struct Excerpt {
-  const char* region = nullptr;  ///< --region of the part; null: the whole measured region
+  const char* region = nullptr;  ///< region of the part, in the form of --region; null: the whole measured region
   double cell = 0;
 };
 
@@ -42,20 +44,20 @@ struct ComparedSystem {
   const char* name;  ///< name of the system as printed in the paper
   std::array<const char*, kCriteria> printed;
   const char* grammar;
-  const char* region;  ///< the region that is measured, as for --region; empty: all of a finite world
+  const char* region;  ///< the measured region, in the form of --region; empty: the whole finite world
   double cell, quick_cell;
-  const char* control;  ///< an assignment NAME=VALUE that changes a parameter, to test the criterion "control"
-  /// An assignment that changes a parameter for morphing; null if the grammar has no such parameter.
+  const char* control;  ///< assignment NAME=VALUE that changes a parameter, to test the criterion kControl
+  /// Assignment NAME=VALUE that changes the degree of morphing; null if the grammar has no such parameter.
   const char* morph;
-  // Options of the picture.
-  const char *view_region, *camera;  ///< options --region and --camera; empty: the renderer chooses
+  // The following members are options for the picture of the system.
+  const char *view_region, *camera;  ///< values of --region and --camera; empty: chosen by the renderer
   double view_cell, quick_view_cell;
   uint64_t view_seed;
-  const char* view_set;  ///< an assignment for --set; null: none
+  const char* view_set;  ///< assignment for the option --set; null: none
   bool sharp;
   const char* alt;
-  const char* without;                ///< reasons for a NO in the paper, and for a NO in our measurements
-  std::array<Excerpt, 3> excerpts{};  ///< the classified parts for the first three criteria
+  const char* without;                ///< explains each NO in the paper's table, and each NO in our measurements
+  std::array<Excerpt, 3> excerpts{};  ///< the parts that are classified for kClouds, kArchitecture and kCaves
 };
 
 std::span<const ComparedSystem> comparedSystems();

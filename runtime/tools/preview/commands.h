@@ -6,7 +6,7 @@
 
 namespace sgm::cli {
 
-/// Shows a window until the user closes it. Takes the same options as a single picture of `sgm render`.
+/// Shows the preview window until the user closes it. Has the same options as a single picture of `sgm render`.
 Exit showPreview(const RenderOptions& options);
 
 }  // namespace sgm::cli

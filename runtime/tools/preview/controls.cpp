@@ -17,7 +17,7 @@ constexpr const char* kHelp =
     "WASD QE: walk   H: first view   P: print the command\n"
     "click: print the rule   Esc: close";
 
-/// The unit in which values of a dimension are displayed, and its ratio to the program's own unit.
+/// The unit in which values of a dimension are displayed, and the factor from the program's own unit to it.
 struct Unit {
   const char* format;
   double factor = 1;
@@ -30,7 +30,7 @@ Unit unitOf(Dim dim) {
   return {"%.3g"};
 }
 
-/// The value in the syntax of the grammar language.
+/// Formats a value in the syntax of the grammar language.
 std::string valueText(Dim dim, double value) {
   const char* unit = dim == kLength ? "m" : dim == kAngle ? "rad" : dim == kArea ? "m2" : dim == kVolume ? "m3" : "";
   return fmt::format("{}{}", value, unit);
@@ -49,7 +49,7 @@ void Controls::adopt(const std::shared_ptr<const Program>& program) {
   const std::vector<std::string> kept = sets();
   given_.clear();
   for (const std::string& set : kept) {
-    // An assignment that is not valid for this program is kept as text: it may be valid again after the next save.
+    // Keep an assignment that is not valid for this program as text: it may be valid again after the next change.
     Result<ParameterValues> one = cli::parameterValues(*program, {set});
     if (!one) {
       given_.push_back(set);
@@ -95,7 +95,7 @@ bool Controls::drawParameter(const Param& param, double& value) const {
   if (!changed) return false;
   value = shown / unit.factor;
   if (param.whole) value = std::round(value);
-  // Displayed values are rounded, so the result may lie outside the range.
+  // Rounding for the display may have moved the value slightly outside the range.
   if (param.has_range) value = std::clamp(value, param.low, param.high);
   return true;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The panel of the preview window: the user's controls, and messages.
+// The panel of the preview window, with controls for the user and messages.
 
 #include <optional>
 #include <string>
@@ -10,21 +10,21 @@
 
 namespace sgm::preview {
 
-/// The values that the user has set in the panel; the window requests a picture with these values.
+/// The control panel, and the values that the user has set in it. The next picture is requested with these values.
 class Controls {
  public:
   explicit Controls(const cli::RenderOptions& options);
 
-  /// Shows controls for a program's parameters. Values that the user has set stay if they are valid for the new
+  /// Adds controls for the parameters of a program. Values that the user has set are kept if they are valid for this
   /// program.
   void adopt(const std::shared_ptr<const Program>& program);
-  /// Draws the panel; must be called within a Dear ImGui frame. Returns whether the user has changed a value.
+  /// Draws the panel. Must be called within a Dear ImGui frame. Returns whether the user has changed a value.
   bool draw(const Painted& last, bool at_work);
 
   uint64_t seed() const { return seed_; }
-  /// The chosen light, in the form of --light.
+  /// The light that the user has chosen, as a value of --light.
   std::string light() const;
-  /// Assignments in the form of --set: all parameters that differ from their defaults, and the assignments of the
+  /// Values of --set: assignments of all parameters that differ from their defaults, and those assignments of the
   /// command line for which the program has no parameter.
   std::vector<std::string> sets() const;
 
@@ -33,9 +33,9 @@ class Controls {
 
   uint64_t seed_;
   int light_ = 0;
-  std::vector<std::string> given_;  ///< assignments of --set on the command line
+  std::vector<std::string> given_;  ///< values of --set on the command line
   std::shared_ptr<const Program> program_;
-  std::vector<double> values_;  ///< one for each of Program::params
+  std::vector<double> values_;  ///< values of the parameters, in the order of Program::params
 };
 
 }  // namespace sgm::preview

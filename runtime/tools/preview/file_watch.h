@@ -1,5 +1,5 @@
 #pragma once
-// Detects that files have been saved.
+// Detects when files have been saved.
 
 #include <array>
 #include <cstdint>
@@ -8,18 +8,18 @@
 
 namespace sgm::preview {
 
-/// Watches the files of one grammar for changes since they were last read. Must be used by one thread.
+/// Watches the files of one grammar for changes since they were last read. Not thread-safe.
 class FileWatch {
  public:
-  /// Starts to watch these files, which need not exist yet.
+  /// Starts to watch these files instead of the previous files. They need not exist yet.
   void watch(std::vector<std::filesystem::path> files);
 
-  /// Whether a file differs from its state at watch() or at the last call that returned true, and has not changed since
-  /// the previous call. The second condition waits for editors that write a file in several steps.
+  /// Whether a file differs from its state at watch() or at the last call that returned true, and has stayed the same
+  /// since the previous call. The second condition is for editors that write a file in several steps.
   bool changed();
 
  private:
-  /// The state of one file: the time of its last change, and its size plus one; zeros if the file does not exist.
+  /// The state of one file: time of its last change, and size plus one; both 0 if the file does not exist.
   using Stamp = std::array<int64_t, 2>;
 
   std::vector<Stamp> look() const;

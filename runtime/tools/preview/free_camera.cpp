@@ -7,13 +7,13 @@
 namespace sgm::preview {
 namespace {
 
-constexpr double kSteepest = 1.55;  // radians, almost straight up, where the heading would be undefined
-constexpr double kNearest = 0.01;   // metres, minimum distance to the target
+constexpr double kSteepest = 1.55;  // maximum pitch in radians; straight up, the heading would be undefined
+constexpr double kNearest = 0.01;   // minimum distance to the target, metres
 
 glm::dvec3 pointOf(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
 std::array<double, 3> arrayOf(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 
-/// The horizontal unit vector to the right of a direction.
+/// The horizontal unit vector to the right of the direction `forward`.
 glm::dvec3 rightOf(const glm::dvec3& forward) {
   const glm::dvec3 right = glm::cross(forward, glm::dvec3(0, 1, 0));
   const double length = glm::length(right);
@@ -37,8 +37,9 @@ FreeCamera::Gaze FreeCamera::gaze() const { return {arrayOf(target_ - distance_ 
 
 void FreeCamera::turn(double right, double up) {
   const glm::dvec3 place = target_ - distance_ * forward();
-  // The dragged surface must follow the pointer. In a hollow the camera therefore turns against the drag. Outside it
-  // orbits against the drag, by which it turns in the drag's direction, so that the near side follows.
+  // The dragged surface must follow the pointer. In a hollow, the camera therefore turns opposite to the drag. Outside,
+  // it orbits the target opposite to the drag and thus turns in the direction of the drag, so that the near side of the
+  // object follows the pointer.
   const double way = inside_ ? -1 : 1;
   heading_ += way * right;
   pitch_ = std::clamp(pitch_ + way * up, -kSteepest, kSteepest);

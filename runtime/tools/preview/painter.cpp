@@ -24,9 +24,9 @@ using cli::Region;
 using cli::RegionScene;
 using cli::RenderOptions;
 
-constexpr uint64_t kChunks = 2048;      // maximum number of chunks of a picture's region without --cell
-constexpr uint64_t kDraftChunks = 256;  // maximum number of chunks of a draft
-constexpr int kCoarsestDraft = 4;       // maximum number of levels by which a draft is coarser than the picture
+constexpr uint64_t kChunks = 2048;      // maximum number of chunks in the region of a picture, if --cell is not given
+constexpr uint64_t kDraftChunks = 256;  // maximum number of chunks in a draft, the coarse first version of a picture
+constexpr int kCoarsestDraft = 4;  // maximum number of levels of detail by which a draft is coarser than its picture
 constexpr double kDraftPixels = 90'000;
 
 std::string pointText(const std::array<double, 3>& p) { return fmt::format("{},{},{}", p[0], p[1], p[2]); }
@@ -35,7 +35,7 @@ std::string boxText(const IntBox& box) {
   return corner(box.lo) + ":" + corner(box.hi);
 }
 
-/// Whether a camera is so far inside a box that the box contains most of its view.
+/// Whether a camera is far enough inside a box for the box to contain most of its view.
 bool isWithin(const IntBox& box, const std::array<double, 3>& camera) {
   for (int axis = 0; axis < 3; ++axis) {
     const double margin = (metres(box.hi[axis]) - metres(box.lo[axis])) / 4, at = camera[static_cast<size_t>(axis)];
@@ -44,7 +44,7 @@ bool isWithin(const IntBox& box, const std::array<double, 3>& camera) {
   return true;
 }
 
-/// A picture size with the same aspect ratio and a limited number of pixels.
+/// The size of a draft: the same aspect ratio as `size`, with at most kDraftPixels pixels.
 std::string draftSize(const std::string& size) {
   const cli::PictureSize whole = *cli::readSize(size);
   const double smaller = std::max(1.0, std::sqrt(whole.width * (whole.height / kDraftPixels)));
@@ -52,7 +52,7 @@ std::string draftSize(const std::string& size) {
                      std::max(1, static_cast<int>(whole.height / smaller)));
 }
 
-/// The files of a grammar in its folder. Files of the standard library are omitted, because they are not on disk.
+/// The files that a grammar consists of. Modules of the standard library are omitted, because they are not on disk.
 std::vector<std::filesystem::path> filesOf(const std::string& file, const CompileResult& compiled) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   std::vector<std::filesystem::path> files{file};
@@ -62,7 +62,7 @@ std::vector<std::filesystem::path> filesOf(const std::string& file, const Compil
   return files;
 }
 
-/// The assignments that the grammar accepts; the others are reported in `messages`.
+/// Selects the assignments that the grammar accepts; the others are reported in `messages`.
 std::vector<std::string> takenSets(const Program& program, const std::vector<std::string>& sets,
                                    std::string& messages) {
   std::vector<std::string> taken;
@@ -86,12 +86,12 @@ struct Painter::Worker {
   std::optional<uint64_t> edition;
   std::shared_ptr<const Program> program;
   std::string compile_messages;
-  std::vector<std::filesystem::path> files;  ///< read, but not yet part of a published result
+  std::vector<std::filesystem::path> files;  ///< files that were read, but are not yet part of a published result
 
-  std::string world;          ///< identifies the world to which the regions below belong
-  std::optional<IntBox> box;  ///< the part of the world that is drawn
+  std::string world;          ///< key of the world to which the regions `draft` and `fine` belong
+  std::optional<IntBox> box;  ///< box of the world that is drawn
   std::shared_ptr<const Region> draft, fine;
-  std::string home;  ///< the camera chosen for requests without one
+  std::string home;  ///< the camera that was chosen automatically, for requests that give none
   Light light = Light::sun;
 
   Worker(Painter& owner, Renderer drawer, std::unique_ptr<JobSystem> threads)
@@ -100,7 +100,7 @@ struct Painter::Worker {
   void paint(const DrawRequest& request, uint64_t number);
 
  private:
-  /// A request in progress.
+  /// The request that is being processed.
   struct Task {
     const DrawRequest& request;
     uint64_t number;
@@ -176,14 +176,14 @@ Result<void> Painter::Worker::settle(Task& task) {
 
 Result<std::shared_ptr<const Region>> Painter::Worker::meshed(const Task& task, int level, bool draft_only) {
   RenderOptions options = task.options;
-  // Use a world with coarser cells: a coarse level of the picture's world would still be derived and probed at its fine
-  // cell size.
+  // Use a world with coarser cells instead of a coarse level of the picture's world: such a level would still be
+  // derived and sampled at the fine cell size of its world.
   options.cell = std::ldexp(*options.cell, level);
   std::optional<cli::RegionDensity> no_density;
   cli::RegionPlan plan = cli::picturePlan(options, no_density);
   plan.quiet = true;
   plan.notes = !draft_only;
-  // Anchors serve only to choose the camera, so they are needed only once.
+  // Anchors are needed only once, to choose the camera.
   plan.anchors = options.camera.empty() && home.empty();
   if (!draft_only) plan.go_on = [this, number = task.number] { return painter.isNewest(number); };
   Result<Region> made = cli::meshProgram(program, options, plan);
@@ -326,7 +326,7 @@ std::optional<Painted> Painter::take() {
 
 void Painter::publish(Painted painted) {
   const std::lock_guard lock(mutex_);
-  // Files are published once, so a new result takes over those of a result that nobody has taken.
+  // The files of a grammar are published only once, so take them over from a result that take() has not returned yet.
   if (painted.files.empty() && result_) painted.files = std::move(result_->files);
   result_ = std::move(painted);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The thread that keeps a picture of a grammar up to date.
+// A thread that keeps a picture of a grammar up to date.
 
 #include <atomic>
 #include <condition_variable>
@@ -17,43 +17,45 @@
 
 namespace sgm::preview {
 
-/// A request for a picture. The grammar file is read again if `edition` differs from the previous request's.
+/// A request for a picture. The grammar file is read again if `edition` differs from that of the previous request.
 struct DrawRequest {
-  /// If the camera is empty, the painter chooses one; `out`, `frame`, `seeds`, `volume` are ignored.
+  /// Options of the picture. If `camera` is empty, the painter chooses a camera; `out`, `frame`, `seeds`, `volume` are
+  /// ignored.
   cli::RenderOptions options;
   uint64_t edition = 0;
 };
 
-/// The current result of a request.
+/// A result for a request: a picture, or only messages.
 struct Painted {
-  uint64_t request = 0;  ///< the request's number, as Painter::wish() returned it
-  /// The compiled grammar; while the text has errors, the last correct program.
+  uint64_t request = 0;  ///< number of the request, as Painter::request() returned it
+  /// The compiled grammar. While the text has errors, this is the last correct program.
   std::shared_ptr<const Program> program;
-  std::vector<std::filesystem::path> files;  ///< files that the grammar consists of; empty if they were not read again
+  std::vector<std::filesystem::path> files;  ///< files of the grammar; empty if they were not read again
   bool text_is_wrong = false;
-  std::string messages;  ///< messages for the user, one on each line; empty: no problems
-  /// The meshed region in the picture; null: the previous picture stays valid.
+  std::string messages;  ///< messages for the user, one per line; empty: no problems
+  /// The meshed region in the picture; null: there is no new picture, and the previous one stays valid.
   std::shared_ptr<const cli::Region> region;
-  std::string box;  ///< region in the picture, as for --region, without the margin that a draft's coarse chunks add
-  double cell = 0;  ///< edge of the picture's grid cells, metres; larger in a draft
+  /// Region in the picture in the form of --region, without the margin that the coarse chunks of a draft add.
+  std::string box;
+  double cell = 0;  ///< edge of a grid cell in the picture, metres; larger in a draft
   Image image;
   View view;
   Light light = Light::sun;
-  bool draft = false;  ///< a better picture of the same request will follow
-  double seconds = 0;  ///< since the painter began to work on the request
+  bool draft = false;  ///< true if a better picture for the same request will follow
+  double seconds = 0;  ///< seconds since the painter began to process the request
 };
 
-/// Paints the newest request: first a draft with coarse cells in plain colours, then the same picture as `sgm render`.
-/// A newer request cancels the work on an older one. All functions must be called from one thread.
+/// Processes the newest request: draws first a draft with coarse cells in plain colours, then the same picture as `sgm
+/// render`. A newer request cancels the current one. All functions must be called from the same thread.
 class Painter {
  public:
-  /// Errors: those of Renderer::create; limit if no thread can be started.
+  /// Starts the painting thread. Errors: those of Renderer::create; limit if no thread can be started.
   static Result<std::unique_ptr<Painter>> create();
   ~Painter();
 
-  /// Requests a picture. Returns the request's number, counted from 1.
+  /// Requests a picture, and returns the number of the request, counted from 1.
   uint64_t request(DrawRequest request);
-  /// Returns the newest result that no call has returned yet; nullopt if there is none.
+  /// Returns the newest result if no call has returned it yet; otherwise nullopt.
   std::optional<Painted> take();
 
  private:

@@ -12,15 +12,16 @@
 namespace sgm::preview {
 
 struct PointedPlace {
-  std::array<double, 3> position{};  ///< metres of the world
-  std::string path;                  ///< path of the rule use that made the surface; empty: the grammar's domain itself
-  std::string source;                ///< "file:line:column" of the statement that made the surface; empty if `path` is
-  std::string material, tag;         ///< empty: none
+  std::array<double, 3> position{};  ///< point of the surface in the world, metres
+  /// Derivation path of the rule use that made the surface; empty: the domain of the grammar made it.
+  std::string path;
+  std::string source;         ///< "file:line:column" of the statement that made the surface; empty if `path` is empty
+  std::string material, tag;  ///< empty: none
 };
 
-/// Finds the first surface on a ray. from: metres of the world; direction: must not be 0. Returns nullopt if there is
-/// no surface within the maximal length. file: name of the grammar in messages. Errors: those of rayCast and of
-/// explain.
+/// Finds the first surface on a ray. from: start of the ray in the world, metres. direction: must not be 0. file: name
+/// of the grammar for messages. Returns nullopt if there is no surface within the maximum ray length. Errors: those of
+/// rayCast and of explain.
 Result<std::optional<PointedPlace>> placeOnRay(const WorldField& world, const std::string& file,
                                                const std::array<double, 3>& from, const glm::dvec3& direction);
 

@@ -1,4 +1,4 @@
-// Sgm preview: shows a grammar in a window while the grammar is being written.
+// `sgm preview`: shows a grammar in a window while the grammar is being written.
 
 #include "tools/preview/commands.h"
 #include "tools/preview/session.h"
@@ -9,7 +9,7 @@
 namespace sgm::cli {
 
 Exit showPreview(const RenderOptions& options) {
-  // A wrong command line is reported at once; errors in the grammar's text appear in the window.
+  // Report an unreadable file at once; errors in the text of the grammar are shown in the window instead.
   if (const Result<std::string> text = readGrammarText(options.file); !text) return reportError(text.error());
   if (!options.region.empty()) {
     if (const Result<IntBox> box = parseRegion(options.region); !box) return reportError(box.error());

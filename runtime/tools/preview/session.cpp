@@ -13,11 +13,11 @@ namespace {
 
 using cli::gazeText;
 
-constexpr double kLook = 0.04;    // seconds between two checks of the files
-constexpr double kRest = 0.15;    // seconds for which the pointer must rest before the place under it is looked up
-constexpr double kTurn = 3.0;     // radians by which the camera turns for a drag across the picture's height
-constexpr double kNearer = 0.85;  // factor of the distance for a step of the wheel
-constexpr double kWalk = 0.6;     // share of the view's typical depth that a held key moves the camera in a second
+constexpr double kLook = 0.04;    // time between two checks of the grammar files, seconds
+constexpr double kRest = 0.15;    // time that the pointer must rest before the place under it is looked up, seconds
+constexpr double kTurn = 3.0;     // turn of the camera for a drag across the height of the picture, radians
+constexpr double kNearer = 0.85;  // factor of the distance to the target for each step of the mouse wheel
+constexpr double kWalk = 0.6;  // speed of the camera while a key is held: share of the view's typical depth per second
 constexpr double kRadians = 0.017453292519943295;
 
 FreeCamera::Gaze gazeOf(const Painted& painted) {
@@ -31,7 +31,7 @@ std::string textOf(const PointedPlace& place) {
   return text + fmt::format("\n{:.2f}, {:.2f}, {:.2f} m", place.position[0], place.position[1], place.position[2]);
 }
 
-/// The word quoted for a shell.
+/// The word in quotes if necessary, so that a shell reads it literally.
 std::string quoted(const std::string& word) {
   const bool plain = std::ranges::all_of(word, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -99,7 +99,7 @@ Result<void> Session::takeResult() {
   if (painted->request == requested_ && !painted->draft) at_work_ = false;
   sayPicture(*painted);
   if (!painted->region) {
-    // The last picture stays visible beside the error messages.
+    // Keep the last picture visible, and show the new error messages next to it.
     last_.messages = painted->messages;
     window_.refresh();
     return {};
@@ -238,7 +238,7 @@ Result<void> Session::run() {
       steer();
       point();
     });
-    // A resting pointer and a held key cause no events, so further frames are requested here.
+    // Request further frames: a resting pointer and a held key cause no events.
     if (pointing_.valid() || !place_is_known_) window_.refresh();
     for (const char key : {'W', 'A', 'S', 'D', 'Q', 'E'})
       if (window_.isHeld(key)) window_.refresh();

@@ -1,5 +1,5 @@
 #pragma once
-// Runs `sgm preview`, from opening the window to closing it.
+// Runs `sgm preview` from opening the window until it is closed.
 
 #include <future>
 #include <optional>
@@ -15,13 +15,13 @@
 
 namespace sgm::preview {
 
-/// Connects file, controls, camera, painter and window. Prints the results that the user requests by key or click, and
-/// with --json a line for each picture and message, so that other programs can follow.
+/// Connects file watch, controls, camera, painter and window. Prints the results that the user requests by key or
+/// click; with --json, also prints a line for each picture and message, so that other programs can follow.
 class Session {
  public:
   Session(const cli::RenderOptions& options, Painter& painter, Window& window);
 
-  /// Returns when the window is closed. Errors: those of the window.
+  /// Runs the event loop; returns when the window is closed. Errors: those of the window.
   Result<void> run();
 
  private:
@@ -45,12 +45,13 @@ class Session {
   FileWatch files_;
   uint64_t edition_ = 1;
   uint64_t requested_ = 0;
-  std::optional<FreeCamera> camera_;  ///< nullopt: the picture shows the initial view
-  Painted last_;                      ///< the result whose picture the window shows
+  /// The camera that the user moves; nullopt while the picture shows the initial view.
+  std::optional<FreeCamera> camera_;
+  Painted last_;  ///< the painter's result that is shown at present
   bool at_work_ = false;
   Clock::time_point frame_at_ = Clock::now();
 
-  std::future<Pointed> pointing_;  ///< pending query of the place under the pointer
+  std::future<Pointed> pointing_;  ///< pending query for the place under the pointer
   std::optional<PointedPlace> place_;
   std::string place_error_;
   bool place_is_known_ = false, clicked_ = false;

@@ -12,9 +12,9 @@
 namespace sgm::preview {
 namespace {
 
-// Frames that are drawn after an event, because Dear ImGui reacts to some events a frame or two later.
+// Number of frames that are drawn after an event, because Dear ImGui reacts to some events one or two frames later.
 constexpr int kSettlingFrames = 3;
-// Maximum motion of the pointer in pixels between press and release that still counts as a click.
+// Maximum movement of the pointer between press and release that still counts as a click, in pixels.
 constexpr double kStill = 4;
 
 std::string reason() {
@@ -25,7 +25,7 @@ std::string reason() {
 
 }  // namespace
 
-/// The OpenGL 1.1 functions that show a picture. They are loaded at run time, so that the command also starts on
+/// The OpenGL 1.1 functions that show the picture. They are loaded at run time, so that the program also starts on
 /// machines without OpenGL.
 struct Window::PictureCalls {
   decltype(&glGenTextures) gen_textures = nullptr;
@@ -99,7 +99,7 @@ struct Window::State {
     });
   }
 
-  /// Corner and size of the picture in the window, in the window's coordinates.
+  /// Top left corner and size of the picture, in window coordinates.
   std::array<ImVec2, 2> place() const {
     const ImVec2 all = ImGui::GetIO().DisplaySize;
     if (picture_width == 0 || picture_height == 0) return {ImVec2(0, 0), all};
@@ -151,7 +151,7 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, int width
   glfwSwapInterval(1);
   state->listen();
   ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;  // Dear ImGui must not write a file into the user's folder
+  ImGui::GetIO().IniFilename = nullptr;  // null: Dear ImGui must not write its settings file into the current folder
   ImGui::StyleColorsDark();
   state->imgui = ImGui_ImplGlfw_InitForOpenGL(state->window, true);
   if (!state->imgui || !ImGui_ImplOpenGL3_Init("#version 150")) return failed("the display's OpenGL is incomplete");

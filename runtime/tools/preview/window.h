@@ -1,5 +1,5 @@
 #pragma once
-// A window with a picture and controls.
+// A window that shows a picture and controls.
 
 #include <functional>
 #include <memory>
@@ -10,43 +10,44 @@
 
 namespace sgm::preview {
 
-/// The state of the mouse, and its changes since the previous frame. Positions and distances are shares of the
-/// picture's size: 0..1 from its top left corner.
+/// The state of the mouse, and its changes since the previous frame. Positions and movements are fractions of the size
+/// of the picture: 0..1 from its top left corner.
 struct Mouse {
   double x = 0, y = 0;
-  bool over_picture = false;  ///< the pointer is over the picture, not over a control
+  bool over_picture = false;  ///< true if the pointer is over the picture, not over a control
   double moved_x = 0, moved_y = 0;
-  bool left = false, right = false;  ///< the button is held since it was pressed over the picture
-  bool clicked = false;              ///< the left button was released at the point where it was pressed
-  double wheel = 0;                  ///< steps of the wheel; positive: away from the user
+  bool left = false, right = false;  ///< true while the button, pressed over the picture, is held
+  bool clicked = false;              ///< true if the left button was released at the point where it was pressed
+  double wheel = 0;                  ///< steps of the wheel; positive if rolled away from the user
 };
 
-/// Only one window may exist at a time. All functions must be called in the thread that opened it, the process's main
-/// thread.
+/// The window of the preview. Only one may exist at a time. All functions must be called in the main thread of the
+/// process.
 class Window {
  public:
-  /// Error: unsupported if there is no display or no OpenGL; the message says what to install or set.
+  /// Opens the window. Error: unsupported if there is no display or no OpenGL; the message says what to install or set.
   static Result<std::unique_ptr<Window>> open(const std::string& title, int width, int height);
   ~Window();
 
-  /// Whether the user has closed the window by its button or by Escape.
+  /// Whether the user has closed the window with its close button or Escape.
   bool isClosed() const;
-  /// Returns after the next event of the window, or after `seconds`.
+  /// Waits for the next event of the window, at most `seconds`.
   void wait(double seconds);
-  /// Replaces the picture, which is scaled to the window without distortion. Error: unsupported if the picture is too
+  /// Replaces the picture. It is scaled to the window without distortion. Error: unsupported if the picture is too
   /// large.
   Result<void> show(const Image& image);
-  /// Draws the picture and the controls of Dear ImGui. Does nothing if neither has changed.
+  /// Draws the picture and the Dear ImGui controls. Does nothing if neither has changed. controls: called to define the
+  /// controls.
   void draw(const std::function<void()>& controls);
-  /// Forces the next frames to be drawn. Needed after changes that the window cannot detect.
+  /// Forces the next frames to be drawn. Necessary after changes that the window cannot detect.
   void refresh();
 
   Mouse mouse() const;
-  /// Whether the key of a capital letter is held; false while the user types into a control.
+  /// Whether the key of an upper-case letter is held; false while the user types into a control.
   bool isHeld(char letter) const;
-  /// Whether the key was pressed since the previous frame.
+  /// Whether the key of an upper-case letter was pressed since the previous frame.
   bool isPressed(char letter) const;
-  /// Size of the window's area for the picture, in pixels.
+  /// Size of the area of the window that shows the picture, in pixels.
   int width() const;
   int height() const;
 

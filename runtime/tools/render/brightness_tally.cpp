@@ -6,7 +6,7 @@
 namespace sgm {
 
 void BrightnessTally::add(float brightness) {
-  if (!(brightness >= 0)) return;  // NaN has no bin
+  if (!(brightness >= 0)) return;  // negative values and NaN have no bin
   logarithms_ += std::log(double{brightness} + 1e-4);
   ++count_;
   const float bin = kFinest * (std::log2(std::max(brightness, 1e-6f)) + kLeast);

@@ -9,17 +9,17 @@ namespace sgm {
 
 class BrightnessTally {
  public:
-  /// Counts a brightness; a value below 0 or NaN is ignored.
+  /// Counts one brightness value; ignores NaN and values below 0.
   void add(float brightness);
   void add(const BrightnessTally& other);
 
-  /// Geometric mean; 0 if nothing was counted.
+  /// Geometric mean of all counted values; 0 if no value was counted.
   float mean() const;
-  /// 95th percentile, accurate to a twelfth of its value; 0 if nothing was counted.
+  /// 95th percentile of the counted values, at most a twelfth off; 0 if no value was counted.
   float highlight() const;
 
  private:
-  /// Bins for each doubling of brightness; the first bin begins at 2^-kLeast.
+  /// kFinest: number of histogram bins for each doubling of brightness. The first bin begins at 2^-kLeast.
   static constexpr int kFinest = 8, kLeast = 12;
 
   double logarithms_ = 0;

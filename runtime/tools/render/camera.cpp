@@ -12,12 +12,13 @@
 namespace sgm {
 namespace {
 
-constexpr int kSurroundings = 48;    // number of rays that measure the space around a point
-constexpr size_t kCandidates = 240;  // number of places that are considered for the camera
-constexpr size_t kFinalists = 16;    // number of places whose views are compared roughly
-constexpr size_t kStudied = 3;       // number of places whose views are examined closely
-constexpr float kEyeHeight = 1.7f;   // metres above the floor
-constexpr float kFarthestLamp = 3;   // maximum distance of a lamp, in typical distances of the view
+constexpr int kSurroundings = 48;    // number of rays that measure the free space around a point
+constexpr size_t kCandidates = 240;  // maximum number of candidate camera positions
+constexpr size_t kFinalists = 16;    // maximum number of camera positions whose views are compared at low resolution
+constexpr size_t kStudied = 3;       // maximum number of camera positions whose views are compared in detail
+constexpr float kEyeHeight = 1.7f;   // metres, height of the camera above the floor
+// Maximum distance of a lamp from the camera, in multiples of the typical distance to surfaces.
+constexpr float kFarthestLamp = 3;
 constexpr float kGoldenAngle = 2.39996323f;
 
 // Direction i of `count` evenly spread directions (Fibonacci sphere).
@@ -30,8 +31,8 @@ glm::vec3 directionOf(int i, int count) {
 struct Space {
   float openness = 0;  // mean logarithm of the distances to walls
   float clearance = 0;
-  float walls = 0;   // share of the rays that hit a wall
-  float behind = 0;  // share of the rays that hit a surface from inside the solid
+  float walls = 0;   // share of the rays that hit the front of a wall
+  float behind = 0;  // share of the rays that hit the back of a triangle, thus start in the solid
 };
 
 Space spaceAround(const RayCaster& mesh, glm::vec3 p, float far) {
@@ -55,8 +56,8 @@ struct Place {
   float score = 0;
 };
 
-// The place p moved vertically to eye height above the floor; in a high room to 30 % of its height if that is more, and
-// at most to 60 %. Returns p if there is no floor or no roof.
+// Moves p vertically to eye height above the floor: kEyeHeight, or 30 % of the room's height if that is more, but at
+// most 60 % of the room's height. Returns p unchanged if a vertical ray finds no floor or no roof.
 glm::vec3 standing(const RayCaster& mesh, glm::vec3 p, float far) {
   const auto floor = mesh.cast(p, {0, -1, 0}, far);
   const auto roof = mesh.cast(p, {0, 1, 0}, far);
@@ -81,14 +82,16 @@ std::vector<Place> placesInVoid(const RayCaster& mesh, float far) {
     const glm::vec3 p = standing(mesh, start + n * (0.5f * across->distance), far);
     const Space space = spaceAround(mesh, p, far);
     if (!inVoid(space)) continue;
-    // A region's cut sides are holes in the mesh: prefer places from which few rays escape through holes.
+    // A mesh of a region is open where the region's border cuts it: prefer places from which few rays escape through
+    // these holes.
     places.push_back({p, space.openness + 2 * space.walls + 0.3f * std::log(space.clearance)});
   }
   std::ranges::stable_sort(places, std::greater{}, &Place::score);
   return places;
 }
 
-// Numbers of columns and rows of rays over the picture: few to compare views, more to examine the chosen view.
+// Numbers of columns and rows of rays over the picture. kGlance (few rays) compares views; kStudy examines the chosen
+// one.
 struct Grid {
   int columns, rows;
 };
@@ -98,7 +101,8 @@ struct Fan {
   std::vector<glm::vec3> directions;
   std::vector<float> distances;
   float median = 0;
-  // Mean of median and upper quartile of the distances: the frame of a view is near, but the things behind it matter.
+  // Mean of the median and the upper quartile of `distances`: takes account of the background, not only of the near
+  // walls that frame the view.
   float typical = 0;
   float score = 0;
 };
@@ -136,8 +140,8 @@ Fan lookAlong(const RayCaster& mesh, glm::vec3 from, glm::vec3 forward, const Ca
   const float deep = std::log(std::max(sorted[sorted.size() * 9 / 10], 0.05f));
   const float nose = std::max(1.2f, 0.15f * fan.median);
   const auto close = std::ranges::count_if(sorted, [&](float distance) { return distance < nose; });
-  // The score prefers deep, varied and level views with a near frame, and few rays that escape through holes or hit a
-  // wall right ahead.
+  // The score prefers deep, varied and level views. Rays that escape through holes or hit a wall right before the
+  // camera lower it.
   fan.score = 0.5f * mean + 0.7f * deep + 1.0f * spread - 4.0f * escaped / n - 2.5f * static_cast<float>(close) / n -
               0.8f * forward.y * forward.y;
   return fan;
@@ -148,7 +152,7 @@ struct Observation {
   Fan fan;
 };
 
-// The best of the horizontal views in all directions from a place.
+// The horizontal view from `place` with the highest score, out of kHeadings directions.
 Observation glanceAround(const RayCaster& mesh, glm::vec3 place, const CameraRequest& request, float far) {
   Observation best;
   best.fan.score = -1e30f;
@@ -162,7 +166,7 @@ Observation glanceAround(const RayCaster& mesh, glm::vec3 place, const CameraReq
   return best;
 }
 
-// The best view from a place. The camera steps back as far as the void allows.
+// The view from `place` with the highest score. The camera may also stand further back, as far as the void allows.
 Observation bestObservation(const RayCaster& mesh, glm::vec3 place, const CameraRequest& request, float far) {
   Observation best;
   best.fan.score = -1e30f;
@@ -187,8 +191,8 @@ Observation bestObservation(const RayCaster& mesh, glm::vec3 place, const Camera
   return best;
 }
 
-// Places one lamp to the side, to show relief, and lamps where the view is deepest, to show places beyond the
-// headlamp's reach. All lamps are in the void and apart from each other.
+// Places one lamp at the side, whose slanting light shows relief, and up to three lamps where the view is deepest,
+// beyond the headlamp's reach. All lamps are in the void, at a distance from each other.
 std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::vec3 forward, const Fan& fan,
                                    float far) {
   std::vector<RenderLamp> lamps;
@@ -198,7 +202,7 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
     if (crowded) return false;
     const Space space = spaceAround(mesh, p, far);
     if (space.clearance < 0.35f || space.behind > 0.05f || space.walls < 0.5f) return false;
-    // A lamp's reach is at most the typical distance of the walls around it.
+    // Limit the lamp's reach to the typical distance of the walls around it.
     lamps.push_back({p, colour, std::clamp(std::exp(space.openness), 1.0f, reach)});
     return true;
   };
@@ -220,7 +224,8 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
     const float depth = fan.distances[i];
     if (deep == kColours.size() || depth < 1.15f * fan.median) break;
     if (depth >= far) continue;
-    // The lamp is placed near the part lit by earlier lamps: a separate bright spot in the dark would look like a ball.
+    // A limited distance keeps the lamp near the part that the other lamps light: a separate bright spot in the dark
+    // would look like a ball.
     const float away = std::min(0.80f * depth, kFarthestLamp * fan.typical);
     const float reach = std::clamp(0.30f * away, 1.5f, 14.0f);
     if (hang(from + fan.directions[i] * away, kColours[deep], reach, 0.5f * away)) ++deep;
@@ -228,7 +233,8 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
   return lamps;
 }
 
-// Whether rays from far away hit the shape's outer side. For a cave in endless rock they hit the backs of its walls.
+// True if most rays from far away hit the front of a surface. False for a cave in endless rock, where such rays hit the
+// backs of the cave's walls.
 bool seenFromOutside(const RayCaster& mesh, glm::vec3 centre, float radius) {
   int front = 0, back = 0;
   constexpr int kRays = 192;
@@ -241,7 +247,8 @@ bool seenFromOutside(const RayCaster& mesh, glm::vec3 centre, float radius) {
   return front > back;
 }
 
-// A view obliquely from above, or from below if the shape floats, near enough for the shape to fill the picture.
+// A view of the shape from outside, obliquely from above (from below if the shape floats). The distance is such that
+// the shape fills the picture.
 View outsideView(std::span<const RenderVertex> vertices, glm::vec3 centre, const CameraRequest& request) {
   View view;
   view.camera.width = request.width;
@@ -336,7 +343,7 @@ void lightScene(const View& view, Light light, RenderScene& scene) {
       return;
     case Light::lamp:
       scene.lamps = view.lamps;
-      // Without other lamps, the headlamp must light the whole view; otherwise only near places.
+      // Without other lamps, the headlamp must light the whole view. With other lamps, it lights only near places.
       scene.headlamp.reach = std::clamp((view.lamps.empty() ? 0.90f : 0.30f) * view.depth, 1.2f, 30.0f);
       scene.fog_distance = std::max(4 * view.depth, 10.0f);
       return;

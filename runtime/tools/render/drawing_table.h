@@ -1,5 +1,5 @@
 #pragma once
-// The Vulkan functions that drawing needs in addition to those for computing.
+// Table of the Vulkan functions for drawing, in addition to the table of functions for compute shaders.
 
 #include "backend/vulkan/tables.h"
 

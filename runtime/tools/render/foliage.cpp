@@ -13,18 +13,18 @@ namespace {
 
 struct Kind {
   SurfacePattern pattern;
-  float far;  ///< metres from the camera beyond which this foliage is not drawn
+  float far;  ///< metres; foliage beyond this distance from the camera is not drawn
 };
 constexpr Kind kLawn{SurfacePattern::grassy, 70}, kLeaves{SurfacePattern::leafy, 220};
 
-constexpr float kBladeWidth = 0.0052f;           ///< metres, width of a blade near the camera
-constexpr float kTallest = 0.23f;                ///< metres, length of the tallest blades
-constexpr float kReach = 0.15f, kDepth = 0.14f;  ///< metres by which leaves extend out of a crown's surface, and into
-                                                 ///< it
+constexpr float kBladeWidth = 0.0052f;           ///< metres, width of a blade of grass near the camera
+constexpr float kTallest = 0.23f;                ///< metres, length of the tallest blades of grass
+constexpr float kReach = 0.15f, kDepth = 0.14f;  ///< metres, distances up to which leaves are placed outside a crown's
+                                                 ///< surface (kReach) and inside it (kDepth)
 constexpr float kLeafLength = 0.062f;            ///< length of a leaf in metres
-constexpr float kLeastGrowth = -0.15f;           ///< crowns have no leaves if growthAt() is lower
+constexpr float kLeastGrowth = -0.15f;           ///< minimum of growthAt() for leaves
 constexpr size_t kMaxSprouts = size_t{6} << 20;  ///< maximum number of sprouts in a picture
-constexpr float kSteepest = 0.72f;               ///< minimum upward component of a lawn's normal
+constexpr float kSteepest = 0.72f;               ///< minimum y component of a lawn's unit normal
 
 bool grows(const Kind& kind, const RenderMaterial& material) {
   return material.pattern == kind.pattern && material.relief > 0;
@@ -42,8 +42,8 @@ bool isNear(const Kind& kind, const RenderVertex& corner, const Frame& frame) {
   return corner.texture == glm::vec2(0) && glm::distance(corner.position, glm::vec3(frame.eye)) <= kind.far;
 }
 
-/// The noise that groups blades and leaves, with gaps between groups. For blades: the height of the tallest blades,
-/// 0..1. For leaves: -1..1, negative between sprigs.
+/// Noise that groups blades and leaves, with gaps between the groups. For a lawn: height of the blades as a share of
+/// kTallest, 0.25..1. For leaves: -1..1, negative in the gaps between sprigs.
 float growthAt(const Kind& kind, glm::vec3 position, const Frame& frame) {
   const float finest = frame.eye.w * glm::distance(position, glm::vec3(frame.eye));
   const float hollow = puffHollows(position + glm::vec3(frame.pattern_offset), 0.95f, finest);
@@ -51,7 +51,7 @@ float growthAt(const Kind& kind, glm::vec3 position, const Frame& frame) {
                                                 : std::clamp(0.9f - 2 * hollow, -1.0f, 1.0f);
 }
 
-/// A sequence of random numbers that depends only on a place, so that foliage stays fixed while the camera moves.
+/// A random number generator that is seeded with a position, so that foliage stays fixed while the camera moves.
 class Dice {
  public:
   explicit Dice(glm::vec3 place) {
@@ -77,7 +77,8 @@ class Sower {
  public:
   Sower(const RenderScene& scene, const Frame& frame) : scene_(scene), frame_(frame) {}
 
-  /// Adds the blades or leaves that grow on a triangle. grown: which of its materials they grow on, as from grownOn().
+  /// Adds the blades or leaves that grow on a triangle to `sprouts`. grown: result of grownOn() for the triangle, which
+  /// tells on which of its two materials they grow.
   void sow(const Kind& kind, int grown, const std::array<const RenderVertex*, 3>& corners,
            std::vector<Sprout>& sprouts) {
     const vec3 a = corners[0]->position, b = corners[1]->position - a, c = corners[2]->position - a;
@@ -124,8 +125,8 @@ class Sower {
   }
 
   float bladeWidth(float t) const { return std::max(kBladeWidth, 1.15f * frame_.eye.w * t); }
-  /// Number of blades per square metre at distance t. Far away the ground is seen at a flat angle, so few blades cover
-  /// it.
+  /// Number of blades per square metre at distance t from the camera. It decreases with the distance, since distant
+  /// blades are drawn wider.
   float bladesAt(float t) const {
     const float near = 5500, own = kBladeWidth / bladeWidth(t);
     return near * own * own * std::clamp((kLawn.far - t) / (0.45f * kLawn.far), 0.0f, 1.0f);
@@ -141,7 +142,7 @@ class Sower {
     if (sprout.normal.y < kSteepest + 0.06f * dice.next()) return;
     const vec3 pattern = sprout.root + vec3(frame_.pattern_offset);
     const float growth = growthAt(kLawn, sprout.root, frame_), own = dice.next();
-    // Flowers and seed heads grow in groups.
+    // Noise that decides where flowers and seed heads grow, so that they grow in groups.
     const float company = 1 - 1.6f * puffHollows(pattern + 71.0f, 7, 1), chance = dice.next();
     sprout.length = kTallest * growth * (0.35f + 0.65f * own);
     sprout.width = bladeWidth(t) * (0.75f + 0.5f * dice.next());
@@ -167,7 +168,7 @@ class Sower {
     const float growth = growthAt(kLeaves, sprout.root, frame_);
     // A distant crown is drawn as a solid body of fewer, larger leaves.
     const float far = glm::smoothstep(1.0f, 2.5f, leafLength(t) / kLeafLength);
-    // Crowns are sparser at their rim, as seen from the eye, than in the middle.
+    // A crown has fewer leaves at its silhouette than in the middle.
     const vec3 to_eye = (vec3(frame_.eye) - sprout.root) / t;
     const float rim = 1 - glm::smoothstep(0.1f, 0.7f, std::abs(glm::dot(sprout.normal, to_eye)));
     if (growth < kLeastGrowth + 0.35f * (rim - 0.6f) - 0.35f * far + 0.5f * dice.next() * dice.next()) return;
@@ -183,7 +184,7 @@ class Sower {
   const Frame& frame_;
 };
 
-/// Which of a triangle's two materials grow this kind of foliage: 1 the first, 2 the second, 3 both, 0 neither.
+/// On which of the triangle's two materials this kind of foliage grows: 1 the first, 2 the second, 3 both, 0 neither.
 int grownOn(const Kind& kind, const RenderScene& scene, const Frame& frame, const RenderVertex& one) {
   if (!isNear(kind, one, frame)) return 0;
   return (grows(kind, one.material, scene) ? 1 : 0) + (grows(kind, one.second, scene) ? 2 : 0);
@@ -197,7 +198,7 @@ Foliage foliageOf(const RenderScene& scene, const Frame& frame) {
   foliage.constants.eye = frame.eye;
   foliage.constants.offset = glm::vec4(glm::vec3(frame.pattern_offset), kLawn.far);
   Sower sower(scene, frame);
-  // On average six triangles share a vertex, so the expensive noise is cached for each vertex.
+  // About six triangles share a vertex, so the expensive noise is computed once for each vertex.
   constexpr float kUnknown = -2;
   std::vector<float> growth(scene.vertices.size(), kUnknown);
   for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {

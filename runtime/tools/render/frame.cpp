@@ -15,8 +15,8 @@
 namespace sgm {
 namespace {
 
-constexpr float kNear = 0.05f;  // metres from the camera; nothing nearer is drawn
-// Period of the patterns, which keeps coordinates small enough for float32.
+constexpr float kNear = 0.05f;  // metres from the camera to the near clipping plane
+// The surface patterns repeat after this distance, in units. This keeps their coordinates small enough for float32.
 constexpr int32_t kPatternUnits = 1024 * kUnitsPerMetre;
 
 float wrapped(int32_t units) {
@@ -24,8 +24,8 @@ float wrapped(int32_t units) {
   return static_cast<float>(rest) / static_cast<float>(kUnitsPerMetre);
 }
 
-// The projection has an infinite far plane and reversed depth: float depths are densest near 0, which represents far
-// distances.
+// The infinite far plane is at depth 0 and the near plane at depth 1 (reversed depth). Floats are densest near 0, which
+// keeps precision at far distances.
 glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
   const auto row = [&](glm::vec3 axis, float scale) {
     return glm::vec4(axis * scale, -glm::dot(axis, camera.position) * scale);
@@ -39,8 +39,9 @@ glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
   return m;
 }
 
-constexpr float kMeadow = 1e6f;   // value of Frame::land for a meadow, as in shaders/render/frame.glsl
-constexpr float kBeyond = 0.85f;  // share of the extent of a world's own clouds, beyond which the sky's clouds begin
+constexpr float kMeadow = 1e6f;   // value of Frame::land.y for a meadow, as in shaders/render/frame.glsl
+constexpr float kBeyond = 0.85f;  // the sky's clouds begin at this share of the distance to the farthest cloud of the
+                                  // mesh
 
 bool hasFairWeather(const RenderScene& scene) {
   const auto isCloud = [](const RenderMaterial& one) { return one.pattern == SurfacePattern::cloud; };
@@ -70,7 +71,7 @@ Result<void> checkCamera(const RenderCamera& camera) {
 CameraAxes axesOf(const RenderCamera& camera) {
   CameraAxes axes{};
   axes.forward = glm::normalize(camera.target - camera.position);
-  // If the camera looks straight up or down, no horizontal direction is to its right: use the world's x axis.
+  // If the camera looks straight up or down, the cross product is 0: use the world's x axis as the right axis.
   const glm::vec3 level = glm::cross(axes.forward, glm::vec3(0, 1, 0));
   axes.right = glm::dot(level, level) > 1e-8f ? glm::normalize(level) : glm::vec3(1, 0, 0);
   axes.up = glm::cross(axes.right, axes.forward);
@@ -92,8 +93,8 @@ Frame frameOf(const RenderScene& scene) {
   frame.right = glm::vec4(axes.right * axes.half_width, 0);
   frame.up = glm::vec4(axes.up * axes.half_height, 0);
   frame.sun = glm::vec4(glm::normalize(scene.sun_direction), scene.ambient);
-  // The headlamp is on the helmet, a hand's breadth off the eye: near enough to light the whole view, far enough to
-  // show shadows.
+  // The headlamp is a little above and beside the eye: near enough to light the whole view, far enough for visible
+  // shadows.
   const float off = 0.05f * std::max(scene.headlamp.reach, 1.0f);
   frame.lamp_position[0] = glm::vec4(camera.position + axes.up * off + axes.right * (0.8f * off), scene.headlamp.reach);
   frame.lamp_colour[0] = glm::vec4(scene.headlamp.colour, 0);

@@ -1,5 +1,5 @@
 #pragma once
-// Uniform data of the shading pass, in the layout (std140, std430) of shaders/render/frame.glsl.
+// Uniform data of the shading pass, in the std140 and std430 layouts of shaders/render/frame.glsl.
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -34,20 +34,20 @@ static_assert(sizeof(FrameMaterial) == 32);
 
 bool isFinite(const glm::vec3& v);
 
-/// Error: invalid_argument if a value of the camera is out of range or position and target coincide.
+/// Error: invalid_argument if a camera value is out of range, or if position and target are equal.
 Result<void> checkCamera(const RenderCamera& camera);
 
-/// A camera's image plane at distance 1: unit axes, and half of the plane's width and height.
+/// A camera's unit axes, and half of the width and height of its image plane at distance 1.
 struct CameraAxes {
   glm::vec3 forward, right, up;
   float half_width, half_height;
 };
-/// Contract: checkCamera() accepts the camera.
+/// Axes of a camera that checkCamera() accepts.
 CameraAxes axesOf(const RenderCamera& camera);
 
-/// Contract: the scene is checked. Frame::land is empty until findLand() fills it.
+/// Frame of a scene that has been checked. Frame::land stays empty until findLand() sets it.
 Frame frameOf(const RenderScene& scene);
-/// Sets the frame's land around the world from the whole mesh. May throw std::bad_alloc.
+/// Sets Frame::land: the land that is drawn around the world, derived from the whole mesh. May throw std::bad_alloc.
 void findLand(const RenderScene& scene, Frame& frame);
 std::vector<FrameMaterial> frameMaterials(const RenderScene& scene);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Includes shaders/render/illumination.h as C++.
+// Includes the shader header shaders/render/illumination.h as C++.
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>

@@ -11,24 +11,25 @@
 
 namespace sgm {
 
-inline constexpr int kMaxPicture = 4096;  ///< maximal width and height in pixels
+inline constexpr int kMaxPicture = 4096;  ///< maximum width and height of a picture in pixels
 
-/// 8-bit sRGB with alpha, rows from the top, 4 bytes a pixel without padding.
+/// Pixels in 8-bit sRGB with alpha: 4 bytes each, rows from the top, without padding.
 struct Image {
   int width = 0;
   int height = 0;
   std::vector<uint8_t> rgba;
 };
 
-/// Encodes a linear value of light, 0..1, for sRGB (IEC 61966-2-1).
+/// Encodes a linear light value, 0..1, as sRGB (IEC 61966-2-1).
 inline float encodedSrgb(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
-/// The bytes of a PNG file. Errors: invalid_argument if the image is empty or its sizes do not match; out_of_memory.
+/// Encodes the image as a PNG file and returns its bytes. Errors: invalid_argument if the image is empty or its byte
+/// count does not match its size; out_of_memory.
 Result<std::vector<std::byte>> encodePng(const Image& image);
 
-/// Writes a PNG and commits the file. Errors: those of encodePng(), io.
+/// Writes the image as PNG and commits the file. Errors: io and the errors of encodePng().
 Result<void> writePng(const Image& image, FileWriter& file);
 
 }  // namespace sgm

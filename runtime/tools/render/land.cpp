@@ -11,13 +11,15 @@
 namespace sgm {
 namespace {
 
-constexpr float kBorder = 0.06f;  // width of the border as a share of the world's width
-constexpr float kLeast = 0.05f;   // minimum share of ground in the border ahead of the camera
-constexpr float kEdge = 0.005f;   // share of the world's width: surfaces this near to its end were cut off there
-constexpr float kAlive = 0.1f;    // minimum share of the ground on which things grow, for a land that is not bare
-constexpr float kLevel = 0.7f;    // minimum cosine between the ground's normal and the vertical
-constexpr float kBelow = 0.3f;    // metres, minimum height of the eye above the ground
-constexpr float kAside = 0.35f;   // cosine of the largest horizontal angle from the camera's axis that counts as ahead
+// Width of the strip inside the world's border in which the ground is examined, as a share of the world's width.
+constexpr float kBorder = 0.06f;
+constexpr float kLeast = 0.05f;  // minimum share of the border strip ahead of the camera that must be ground
+constexpr float kEdge = 0.005f;  // share of the world's width: surfaces this near to the world's end count as cut off
+                                 // there
+constexpr float kAlive = 0.1f;   // minimum share of the ground with plants for a land with plants
+constexpr float kLevel = 0.7f;   // minimum cosine of the angle between the ground's normal and the vertical
+constexpr float kBelow = 0.3f;   // metres, minimum height of the eye above the ground
+constexpr float kAside = 0.35f;  // a place is ahead if the cosine of its horizontal angle to the view exceeds this
 
 bool isBare(SurfacePattern pattern) {
   using enum SurfacePattern;
@@ -29,7 +31,7 @@ bool isAlive(SurfacePattern pattern) {
   return pattern == grassy || pattern == mossy || pattern == leafy;
 }
 
-/// Whether a pattern counts as ground: neither water nor the coverings of man-made things do.
+/// Whether a surface with this pattern counts as ground. Water and artificial surfaces do not.
 bool isGround(SurfacePattern pattern) {
   using enum SurfacePattern;
   return pattern != water && pattern != plain && pattern != glass && pattern != metallic;
@@ -67,7 +69,8 @@ std::optional<Land> landAround(const RenderScene& scene) {
   const auto isCut = [&](glm::vec3 p) {
     return p.x < edge_lo.x || p.z < edge_lo.y || p.x > edge_hi.x || p.z > edge_hi.y;
   };
-  // Whether the surface was cut off at the border: an uncut shape, such as a ball, does not stand on land.
+  // True if the world's border cuts off the ground. A shape that ends before the border, such as a ball, does not stand
+  // on land.
   bool goes_on = false;
   std::vector<Patch> patches;
   for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {
@@ -85,7 +88,7 @@ std::optional<Land> landAround(const RenderScene& scene) {
     goes_on |= isCut(one.position) || isCut(b) || isCut(c);
     patches.push_back({one.position.y, size / 2, static_cast<uint32_t>(material)});
   }
-  // The area of the part of the border that lies ahead of the camera, estimated on a grid of places over the world.
+  // The horizontal area of the border ahead of the camera, estimated on a grid of points over the world.
   constexpr int kGrid = 64;
   float border = 0;
   for (int i = 0; i < kGrid * kGrid; ++i) {

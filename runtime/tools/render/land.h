@@ -1,5 +1,5 @@
 #pragma once
-// The land that is drawn beyond the end of the meshed world, up to the horizon.
+// The land that is drawn between the end of the meshed world and the horizon.
 
 #include <cstdint>
 #include <optional>
@@ -8,26 +8,26 @@
 
 namespace sgm {
 
-/// A horizontal plane around the world.
+/// A horizontal plane that continues the world's ground up to the horizon.
 struct Land {
-  /// A value of `material`: meadows, used if the world has no ground of its own.
+  /// Value of `material` for meadows, used if the world consists of clouds only.
   static constexpr uint32_t kMeadow = UINT32_MAX;
 
-  float height = 0;       ///< metres from the scene's origin
-  uint32_t material = 0;  ///< index of the material of most ground at the world's border
-  bool bare = false;  ///< the material is rock, sand, gravel or snow: no meadows and woods are drawn in the distance
+  float height = 0;       ///< metres above the scene's origin
+  uint32_t material = 0;  ///< index of the most frequent material of the ground at the world's border
+  bool bare = false;      ///< true if the material is rock, sand, gravel or snow: then no meadows and woods are drawn
 };
 
-/// The ground at the border of the meshed world, on the side that the camera faces. Its height is the median over that
-/// ground, weighted by area. Returns nullopt if too little of the border is ground below the camera, or the ground does
-/// not end at the border. scene must be checked. May throw std::bad_alloc.
+/// The land that continues the ground at the meshed world's border, ahead of the camera. Its height is the
+/// area-weighted median height of that ground. Returns nullopt if too little of the border is ground below the camera,
+/// or if the ground ends before the border. Contract: the scene is checked. May throw std::bad_alloc.
 std::optional<Land> landAround(const RenderScene& scene);
 
-/// The land under a world that consists of clouds only: meadows at the world's height 0 if the camera is above it.
-/// Returns nullopt if the world has other parts, or no clouds.
+/// The land under a world that consists of clouds only: meadows at world height 0. Returns nullopt if the mesh has
+/// other surfaces or no triangle, or if the camera is below the land.
 std::optional<Land> landUnderClouds(const RenderScene& scene);
 
-/// Horizontal distance from the camera to the farthest cloud, metres; 0 if there are no clouds.
+/// Horizontal distance in metres from the camera to the farthest vertex of a cloud; 0 if there are no clouds.
 float reachOfClouds(const RenderScene& scene);
 
 }  // namespace sgm

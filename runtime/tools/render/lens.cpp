@@ -12,13 +12,13 @@ namespace sgm {
 namespace {
 
 constexpr float kGlare = 0.045f;  // share of the light that the lens scatters
-// Limit in multiples of white, so that glints of single pixels do not dominate the glare.
+// Limit of a pixel's light in multiples of white, so that glints in single pixels do not dominate the glare.
 constexpr float kBrightest = 24.0f;
-constexpr float kGrain = 0.010f;  // strength of the grain in a medium grey pixel, sRGB
-/// Distribution of the scattered light: shares of successive blurs, each twice as wide as the previous one.
+constexpr float kGrain = 0.010f;  // strength of the film grain in a medium grey pixel, as a share of the sRGB range
+/// Shares of the scattered light in successive blurs, each twice as wide as the previous one.
 constexpr std::array kSpread = {0.16f, 0.18f, 0.17f, 0.15f, 0.13f, 0.11f, 0.10f};
 
-/// Light of each pixel of a picture, or of a picture reduced in size.
+/// Light of each pixel of a picture, at full or reduced resolution.
 struct LightMap {
   LightMap(int w, int h) : width(w), height(h), light(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
 
@@ -46,7 +46,7 @@ LightMap halved(const LightMap& map) {
   return half;
 }
 
-/// Adds a map of half the size, enlarged with smooth interpolation.
+/// Upsamples `half`, which has half of the map's size, with smooth interpolation and adds it to `map`.
 void addDoubled(LightMap& map, const LightMap& half) {
   for (int y = 0; y < map.height; ++y) {
     const int row = y / 2, beside_row = y % 2 == 0 ? row - 1 : row + 1;
@@ -59,7 +59,7 @@ void addDoubled(LightMap& map, const LightMap& half) {
   }
 }
 
-/// The light that the lens scatters, as a map of its own.
+/// The part of the light that the lens scatters, at the same resolution.
 LightMap glareOf(LightMap light) {
   std::vector<LightMap> maps;
   maps.push_back(halved(light));
@@ -80,7 +80,8 @@ float chance(uint32_t& state) {
   return static_cast<float>((word >> 22u) ^ word) * 0x1p-32f;
 }
 
-/// The colour with each channel clamped to 0..limit. NaN becomes 0, since it would spread over the whole picture.
+/// The colour with each channel clamped to 0..limit. NaN becomes 0, since the blurs would spread it over the whole
+/// picture.
 glm::vec3 held(const glm::vec3& c, float limit) {
   const auto one = [&](float v) { return v > 0 ? std::min(v, limit) : 0.0f; };
   return {one(c.x), one(c.y), one(c.z)};
@@ -110,8 +111,8 @@ Image developed(std::span<const ExposedPixel> pixels, int width, int height) {
     for (int draw = 0; draw < 4; ++draw) grain += chance(state);
     for (int channel = 0; channel < 3; ++channel) {
       const float value = encodedSrgb(std::clamp(lit[channel], 0.0f, 1.0f));
-      // Grain is strongest in medium greys. Half a quantization step of noise everywhere prevents banding of dark
-      // gradients.
+      // Film grain is strongest in medium greys. Noise of half a quantization step, added everywhere, prevents banding
+      // in dark gradients.
       const float rough = kGrain * 4 * value * (1 - value) * grain * 1.7f + (chance(state) - 0.5f) / 255;
       image.rgba[4 * i + static_cast<size_t>(channel)] =
           static_cast<uint8_t>(std::clamp(value + rough, 0.0f, 1.0f) * 255 + 0.5f);

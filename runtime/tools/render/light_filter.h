@@ -1,6 +1,6 @@
 #pragma once
-// Removes noise from sparsely sampled light. Light changes slowly along a surface, so it is smoothed there, but not
-// across the surface's edges.
+// Removes noise from sparsely sampled light: smooths it along surfaces, where light changes slowly, but not across
+// their edges.
 
 #include <vector>
 
@@ -8,7 +8,8 @@
 
 namespace sgm {
 
-/// The visible surface at each element of a plane of light.
+/// Geometry buffer for the filter: the visible surface at each element of a light plane, an image of DirectLight or
+/// SoftLight values.
 struct Guides {
   Guides(uint32_t w, uint32_t h) : width(w), height(h), positions(size_t{w} * h), normals(size_t{w} * h) {}
 
@@ -18,16 +19,16 @@ struct Guides {
   }
 
   uint32_t width, height;
-  /// xyz: metres from the scene's origin; w: distance from the eye, or below 0 if there is no surface
+  /// xyz: position in metres from the scene's origin; w: distance from the eye, negative if there is no surface
   std::vector<glm::vec4> positions;
   std::vector<glm::vec3> normals;
 };
 
-/// Smooths soft light by an edge-avoiding filter that compares normals and planes (Dammertz et al., "Edge-avoiding
-/// a-trous wavelet transform for fast global illumination filtering", 2010). element: angle that one element covers, in
-/// radians. May throw std::bad_alloc.
+/// Smooths indirect light by an edge-avoiding filter that compares normals and planes (Dammertz et al., "Edge-avoiding
+/// a-trous wavelet transform for fast global illumination filtering", 2010). element: angle in radians that one element
+/// of `light` covers. May throw std::bad_alloc.
 void filterSoft(std::vector<SoftLight>& light, const Guides& guides, float element, JobSystem& jobs);
-/// Softens the edges of shadows over two pixels; reflections stay sharp. May throw std::bad_alloc.
+/// Smooths the edges of shadows over two pixels, but leaves reflections unchanged. May throw std::bad_alloc.
 void filterDirect(std::vector<DirectLight>& light, const Guides& guides, float element, JobSystem& jobs);
 
 }  // namespace sgm

@@ -10,14 +10,15 @@ namespace sgm {
 
 namespace {
 
-/// Rays to a light: the first ones suffice for places in full light or shade; the others resolve penumbras.
+/// Number of shadow rays to one light. If the first kFirstRays agree, the place is in full light or full shadow.
+/// Otherwise it is in a penumbra, and kAllRays are cast.
 constexpr int kFirstRays = 2, kAllRays = 8;
-constexpr int kMaxPanes = 2;          // maximum number of panes that a ray passes before it must hit another surface
-constexpr float kThroughPane = 0.8f;  // share of the light that a leaded pane transmits
+constexpr int kMaxPanes = 2;          // maximum number of window panes that a ray crosses between two surfaces
+constexpr float kThroughPane = 0.8f;  // share of the light that a window pane transmits
 constexpr float kSunRadius = 0.012f;  // radius of the sun's disc at distance 1, slightly enlarged by haze
 constexpr float kLampRadius = 0.05f;  // radius of a lamp, as a fraction of its reach
 
-/// Returns the share of unblocked rays; each call of reaches() casts one ray and returns whether it is unblocked.
+/// The share of unblocked shadow rays. Each call of reaches() casts one ray and returns whether it is unblocked.
 template <class Reaches>
 float shareOf(Reaches reaches) {
   int open = 0, cast = 0;
@@ -41,7 +42,7 @@ vec3 LightPaths::lampOn(vec3 p, vec3 n, uint32_t lamp) const {
 }
 
 float LightPaths::sunShare(const MetSurface& place, UnitPoints& points) const {
-  // Surfaces that face away are dark, except translucent ones, which are lit from within.
+  // Surfaces that face away from the sun are dark. The tolerance is for translucent surfaces.
   if (dot(place.normal, to_sun_) < -0.4f) return 0;
   const Across across(to_sun_);
   const float through = vapour_ ? vapour_->sunThrough(place.start) : 1;
@@ -121,7 +122,7 @@ vec3 LightPaths::radiance(vec3 from, vec3 direction, UnitPoints& turns, int boun
     }
     if (distance && i == 0 && place.isThere()) *distance = place.distance;
     if (!place.isThere()) return sum + weight * (sky_ ? skyIn(from, direction, mirrored) : vec3(scene_.frame().sun.w));
-    // Ambient light is full in the open, and less in narrow clefts.
+    // Ambient light arrives fully in open space, and less in narrow clefts.
     const float wide = place.distance / (place.distance + 0.7f);
     sum += weight * (sky_ ? 0.0f : scene_.frame().sun.w * wide);
     weight *= scene_.colourOf(place.material);

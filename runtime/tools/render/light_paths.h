@@ -1,5 +1,5 @@
 #pragma once
-// Light that arrives at places from the sun, lamps and the sky, directly or by way of other surfaces.
+// Light that arrives at surfaces from the sun, lamps and the sky, directly or after reflections.
 
 #include "tools/render/sampling.h"
 #include "tools/render/traced_scene.h"
@@ -9,29 +9,30 @@ namespace sgm {
 
 float luminance(vec3 colour);
 
-/// A traced scene and what lights it: the sun and the sky behind clouds, or lamps. Keeps references.
+/// Computes light in a traced scene, which is lit either by the sun and the sky, or by lamps. Keeps references to its
+/// arguments.
 class LightPaths {
  public:
-  /// vapour: the scene's clouds, or null.
+  /// vapour: the scene's clouds, or null if there are none.
   LightPaths(const TracedScene& scene, const Vapour* vapour)
       : scene_(scene), vapour_(vapour), to_sun_(scene.frame().sun), sky_(scene.scene().background == Background::sky) {}
 
   /// True if the sun and the sky light the scene; false if lamps do.
   bool isUnderSky() const { return sky_; }
-  /// The number of lights: the sun, or lamps.
+  /// Number of direct lights: 1 (the sun), or the number of lamps.
   uint32_t lights() const { return sky_ ? 1 : scene_.frame().counts.x; }
 
-  /// The light of one of them on a place, if nothing blocks it.
+  /// The light of light source `light` that falls on a place if nothing blocks it.
   vec3 lightOf(uint32_t light, const MetSurface& place) const {
     return sky_ ? sunOn(place.normal) : lampOn(place.position, place.normal, light);
   }
-  /// The share of that light that is not blocked, 0..1.
+  /// The share of the light of light source `light` that reaches a place, 0..1.
   float openShare(uint32_t light, const MetSurface& place, UnitPoints& points) const {
     return sky_ ? sunShare(place, points) : lampShare(place, light, points);
   }
 
-  /// The light that arrives along a ray, after at most `bounces` surfaces. distance: set to the distance of the first
-  /// hit, if any. mirrored: the ray is visible in a pane.
+  /// The light that arrives at `from` along a ray in `direction`, traced over at most `bounces` surfaces. distance: set
+  /// to the distance of the first hit, if there is one. mirrored: the ray is a visible reflection in a pane.
   vec3 radiance(vec3 from, vec3 direction, UnitPoints& turns, int bounces, float* distance = nullptr,
                 bool mirrored = false) const;
 
@@ -40,11 +41,13 @@ class LightPaths {
   vec3 lampOn(vec3 p, vec3 n, uint32_t lamp) const;
   float sunShare(const MetSurface& place, UnitPoints& points) const;
   float lampShare(const MetSurface& place, uint32_t lamp, UnitPoints& points) const;
-  /// Reflected light of the sun and all lamps on a mirrored place: choosing a lamp at random would cause noise.
+  /// Direct light of the sun or all lamps on a place that is visible in a mirror: choosing one lamp at random would
+  /// cause noise.
   vec3 litByAll(const MetSurface& place, UnitPoints& turns) const;
-  /// Reflected light of the sun, or of one lamp chosen with probability proportional to its unshadowed light.
+  /// Direct light of the sun, or an estimate from one lamp, chosen with probability proportional to its unshadowed
+  /// light.
   vec3 lit(const MetSurface& place, glm::vec2 turn) const;
-  /// The sky with fair-weather clouds: single ones in mirrors, otherwise their mean share.
+  /// The sky's radiance with fair-weather clouds: single clouds if the ray is a reflection, otherwise their mean share.
   vec3 skyIn(vec3 from, vec3 direction, bool mirrored) const;
 
   const TracedScene& scene_;

@@ -23,20 +23,22 @@
 namespace sgm {
 namespace {
 
-constexpr int kSoftRays = 14;       // number of rays for each square of pixels; the result is filtered later
-constexpr int kBounces = 2;         // number of bounces of a soft ray; light of further bounces is assumed to be even
-constexpr int kMirrorBounces = 2;   // number of bounces of a ray from a mirror
-constexpr int kMirrorRays = 4;      // number of rays of a mirroring pixel: a single ray would alias edges in the mirror
-constexpr float kDirtReach = 0.9f;  // metres: surfaces with nearer surroundings catch dirt
+constexpr int kSoftRays = 14;       // number of rays for the indirect light of each square of pixels; a filter removes
+                                    // the noise
+constexpr int kBounces = 2;         // number of bounces of an indirect ray; a constant stands for further bounces
+constexpr int kMirrorBounces = 2;   // number of bounces of a reflected ray
+constexpr int kMirrorRays = 4;      // number of rays for a mirroring pixel: a single ray would alias edges in the
+                                    // mirror
+constexpr float kDirtReach = 0.9f;  // metres; surfaces with other surfaces nearer than this get dirty
 
-/// A traced scene and its light paths and clouds, from which each pixel gets its light.
+/// Computes the light of single pixels in a traced scene.
 class LightTracer {
  public:
-  /// vapour: the scene's clouds, or null.
+  /// vapour: the scene's clouds, or null if there are none.
   LightTracer(const TracedScene& scene, const Vapour* vapour)
       : scene_(scene), paths_(scene, vapour), vapour_(vapour), has_water_(scene.hasWater()) {}
 
-  /// Returns the light of the clouds in front of a surface, or of the sky if there is no surface.
+  /// The light of the clouds between the eye and a surface, or along the whole ray if there is no surface.
   VapourLight vapourAt(const MetSurface& place, uint32_t x, uint32_t y) const {
     return vapour_->march(vec3(scene_.frame().eye), scene_.directionAt(x, y),
                           place.isThere() ? place.distance : kLongestRay, x, y);
@@ -52,11 +54,11 @@ class LightTracer {
     float wet = 0;
     vec3 seen(0);
     if (scene_.isMirror(place.material)) seen = mirrored(place, x, y);
-    // At the rim of a pane, blended paint must mirror as little as the pane does: otherwise the sky alone would shine
-    // in the pane.
+    // At the rim of a pane, where its material blends with paint, the paint must mirror as little as the pane does.
+    // Otherwise only the sky would shine in the pane.
     if (scene_.isClear(place.material) || scene_.isClear(place.second)) {
       const uint32_t pane = scene_.isClear(place.material) ? place.material : place.second;
-      // Reflection and transmission are one light here: the shader adds it unchanged.
+      // For clear panes, `seen` is the sum of reflected and transmitted light, and the shader adds it unchanged.
       const float facing = -dot(scene_.directionAt(x, y), place.normal);
       const float mirrors = 0.06f + 0.94f * std::pow(1 - std::clamp(facing, 0.0f, 1.0f), 5.0f);
       seen = mix(scene_.colourOf(pane) * seenThrough(place, x, y), seen, mirrors);
@@ -79,7 +81,7 @@ class LightTracer {
     for (int i = 0; i < kSoftRays; ++i) {
       const vec3 direction = cosineDirection(place.normal, points.next());
       float distance = kLongestRay;
-      // The limit prevents fireflies: single very bright samples from a lamp at close range.
+      // The limit prevents fireflies: single samples that are very bright because a lamp is near.
       const vec3 light = glm::min(paths_.radiance(place.start, direction, turns, kBounces, &distance), vec3(6.0f));
       near += std::max(0.0f, 1 - distance / kDirtReach);
       sum += light;
@@ -93,7 +95,7 @@ class LightTracer {
     return result;
   }
 
-  /// The total light that falls on a place.
+  /// The total of direct and indirect light that falls on a place.
   vec3 lightOn(const MetSurface& place, const DirectLight& direct, const SoftLight& soft) const {
     vec3 light(soft.light);
     for (uint32_t i = 0; i < paths_.lights(); ++i) {
@@ -103,17 +105,19 @@ class LightTracer {
     return light;
   }
 
-  /// The brightness with which a place of a plain colour appears in a light.
+  /// The brightness of a place in the given light, if the material has a plain colour.
   float brightness(const MetSurface& place, vec3 light) const {
     const vec3 colour = scene_.colourOf(place.material);
     if (paths_.isUnderSky()) return luminance(light * colour);
-    // Under lamps, treat dark materials such as lava as dark, not as badly lit stone.
+    // Under lamps, dark materials such as lava count as brighter than they are, but not as bright as stone of albedo
+    // kStone, so that the exposure does not turn them into pale ones.
     constexpr float kStone = 0.3f;
     return luminance(light * colour) * std::sqrt(kStone / std::clamp(luminance(colour), 0.02f, kStone));
   }
 
  private:
-  /// The reflection in a pixel: the mean of rays through the whole pixel, each to its own place of the mirror.
+  /// The reflection in a mirroring pixel: the mean of rays that are spread over the pixel, each reflected at its own
+  /// point.
   vec3 mirrored(const MetSurface& place, uint32_t x, uint32_t y) const {
     UnitPoints spread(x, y, 63), turns(x, y, 64);
     const vec3 eye(scene_.frame().eye);
@@ -121,7 +125,7 @@ class LightTracer {
     vec3 sum(0);
     for (int i = 0; i < kMirrorRays; ++i) {
       const vec3 through = scene_.directionAt(x, y, spread.next() - 0.5f);
-      // Its intersection with the mirror's plane, unless that is nearly edge-on.
+      // Intersect the ray with the mirror's plane, unless the plane is seen nearly edge-on.
       const float steep = dot(through, place.normal), way = facing / std::min(steep, -1e-4f);
       const vec3 beside = steep < 0 && way < 1.5f * place.distance ? eye + way * through - place.position : vec3(0);
       const vec3 at = place.position + beside + vec3(scene_.frame().pattern_offset);
@@ -130,14 +134,15 @@ class LightTracer {
                           : pattern == SurfacePattern::water && paths_.isUnderSky() ? rippledNormal(place.normal, at)
                                                                                     : place.normal;
       vec3 back = glm::reflect(glm::normalize(place.position + beside - eye), normal);
-      // At grazing angles, the distorted normal would reflect the ray into the pane; reflect it out again.
+      // At grazing angles, the distorted normal would reflect the ray into the pane: mirror the ray back to the outer
+      // side.
       if (const float outwards = dot(back, place.normal); outwards < 0) back -= 2 * outwards * place.normal;
       sum += paths_.radiance(place.start + beside, back, turns, kMirrorBounces, nullptr, true);
     }
     return sum / static_cast<float>(kMirrorRays);
   }
 
-  /// The scene behind a pane, in a pixel: old glass bends and blurs it.
+  /// The light from the scene behind a pane; old leaded glass bends and blurs it.
   vec3 seenThrough(const MetSurface& place, uint32_t x, uint32_t y) const {
     UnitPoints spread(x, y, 66), turns(x, y, 67);
     const bool old = scene_.isLeaded(place.material);

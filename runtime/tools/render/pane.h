@@ -1,5 +1,5 @@
 #pragma once
-// The unevenness of window panes and water, and clouds in reflections.
+// The unevenness of window panes and water surfaces, and clouds in reflections.
 
 #include <cmath>
 
@@ -8,10 +8,10 @@
 
 namespace sgm {
 
-/// The normal of a pane at a point in the metres of the patterns: panes are uneven and set by hand, so each reflects
-/// another, slightly distorted part of the sky.
+/// The distorted normal of a pane. Old panes are wavy and each is slightly tilted, so each reflects another part of the
+/// sky. p: position plus Frame::pattern_offset, metres.
 inline vec3 paneNormal(vec3 normal, vec3 p) {
-  // Each sash (the pane's frame) is slightly askew, by a random amount.
+  // A random tilt for each sash (the frame of one pane).
   const auto lot = [&](float by) {
     const float v = std::sin(by + 12.99f * std::floor(0.9f * (p.x + p.z)) + 78.23f * std::floor(0.42f * p.y)) * 43.76f;
     return v - std::floor(v) - 0.5f;
@@ -22,8 +22,8 @@ inline vec3 paneNormal(vec3 normal, vec3 p) {
   return glm::normalize(normal + 0.016f * wave + 0.045f * askew);
 }
 
-/// The normal of open water at a point in the metres of the patterns: a light wind makes ripples of several wavelengths
-/// and directions, with varying strength.
+/// The normal of open water with wind ripples of several wavelengths and directions. p: position plus
+/// Frame::pattern_offset, metres.
 inline vec3 rippledNormal(vec3 normal, vec3 p) {
   constexpr int kWaves = 6;
   const float gust = 0.6f + 0.4f * std::sin(0.31f * p.x + 1.7f * std::sin(0.23f * p.z)) * std::sin(0.27f * p.z);
@@ -40,7 +40,8 @@ inline vec3 rippledNormal(vec3 normal, vec3 p) {
   return glm::normalize(normal + 0.022f * gust * vec3(east, 0, south));
 }
 
-/// The share of a fair sky that clouds hide in an upward direction; approximates shaders/render/clouds.glsl.
+/// The share of the sky's light that fair-weather clouds hide in an upward direction. Approximates
+/// shaders/render/clouds.glsl.
 inline float mirroredClouds(vec3 direction) {
   const vec3 level = 300.0f * direction / (direction.y + 0.12f);
   return 0.8f * smoothstep(0.45f, 0.85f, 1 - puffHollows(vec3(level.x, 0, level.z), 128, 8));

@@ -59,7 +59,7 @@ Result<VkRenderPass> makeRenderPass(VulkanScope& scope) {
   return scope.renderPass(info);
 }
 
-/// The vertex attributes of a pipeline; one set for each vertex or for each instance.
+/// Vertex input, topology and culling of a pipeline. A binding advances for each vertex or for each instance.
 struct Drawn {
   VkVertexInputBindingDescription binding;
   std::array<VkVertexInputAttributeDescription, 6> attributes;
@@ -75,11 +75,11 @@ constexpr Drawn kTriangles{{0, sizeof(RenderVertex), VK_VERTEX_INPUT_RATE_VERTEX
                              {4, 0, VK_FORMAT_R32_UINT, offsetof(RenderVertex, second)},
                              {5, 0, VK_FORMAT_R32_SFLOAT, offsetof(RenderVertex, share)}}},
                            VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
-                           // The side of a surface that faces the solid is never visible from the void, so it is
-                           // culled. From outside, culling opens a cave like a doll's house.
+                           // Back faces are culled: a viewer in the void never sees them. Seen from outside, culling
+                           // makes a cave's near walls invisible, which opens the cave to view.
                            VK_CULL_MODE_BACK_BIT};
 
-/// Sprouts are not culled, since both of their sides are visible.
+/// Sprouts are drawn without culling, since both of their sides are visible.
 constexpr Drawn kSprouts{{0, sizeof(Sprout), VK_VERTEX_INPUT_RATE_INSTANCE},
                          {{{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Sprout, root)},
                            {1, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Sprout, normal)},
@@ -90,7 +90,7 @@ constexpr Drawn kSprouts{{0, sizeof(Sprout), VK_VERTEX_INPUT_RATE_INSTANCE},
                          VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP,
                          VK_CULL_MODE_NONE};
 
-/// A pipeline that draws into the reversed depth buffer and into both planes with these two shaders.
+/// A pipeline that draws with two given shaders into the positions, the normals and the reversed depth buffer.
 Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout,
                                     const Drawn& drawn, std::span<const uint32_t> vertex_code,
                                     std::span<const uint32_t> fragment_code) {
@@ -133,7 +133,7 @@ Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass
   depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
   depth.depthTestEnable = VK_TRUE;
   depth.depthWriteEnable = VK_TRUE;
-  depth.depthCompareOp = VK_COMPARE_OP_GREATER;  // depth is reversed
+  depth.depthCompareOp = VK_COMPARE_OP_GREATER;  // depth is reversed: nearer is greater
   std::array<VkPipelineColorBlendAttachmentState, 2> blends{};
   for (VkPipelineColorBlendAttachmentState& blend : blends) {
     blend.colorWriteMask =

@@ -1,6 +1,6 @@
 #include "tools/render/image.h"
 
-// Stb's functions are static in this file, because a program that links us may contain its own copy of stb.
+// Makes stb's functions static, because a program that links this library may contain its own copy of stb.
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #pragma GCC diagnostic push

@@ -11,9 +11,9 @@
 namespace sgm {
 namespace {
 
-constexpr int kSide = 64;       // points along an edge of the precomputed tile
-constexpr int kPuffs = 4;       // puffs along an edge of the tile, in the first octave
-constexpr float kWorld = 1024;  // metres after which the noise repeats
+constexpr int kSide = 64;       // samples along an edge of the precomputed noise tile
+constexpr int kPuffs = 4;       // puffs along an edge of the tile in the first octave
+constexpr float kWorld = 1024;  // metres, period after which the noise repeats
 
 /// Three random numbers from a hash of three integers: pcg3d (Jarzynski and Olano, "Hash functions for GPU rendering").
 glm::vec3 random3(glm::uvec3 v) {
@@ -24,7 +24,7 @@ glm::vec3 random3(glm::uvec3 v) {
   return glm::vec3(v >> 8u) / 16777216.0f;
 }
 
-/// Random points in the unit cube, one in each of cells x cells x cells cells, repeated periodically.
+/// Random points in the unit cube: one in each cell of a periodic grid with `cells` cells along each edge.
 class Points {
  public:
   Points(int cells, uint32_t salt) : cells_(cells) {
@@ -32,7 +32,7 @@ class Points {
       points_.push_back(random3(glm::uvec3(i % cells, i / cells % cells, i / cells / cells) + salt));
   }
 
-  /// Distance from a place to the nearest of the points, in cells (Worley 1996, "A cellular texture basis function").
+  /// Distance in cells from `at` to the nearest point (Worley 1996, "A cellular texture basis function").
   float nearest(glm::vec3 at) const {
     const glm::vec3 p = at * static_cast<float>(cells_);
     const glm::ivec3 cell(glm::floor(p));
@@ -82,8 +82,7 @@ float tileAt(const std::vector<uint8_t>& tile, glm::vec3 p) {
 }  // namespace
 
 float puffHollows(glm::vec3 position, float period, float finest) {
-  // The tile's edge is the period of the patterns, kWorld, divided by a power of two, so that the noise repeats after
-  // kWorld too.
+  // The tile's edge is kWorld divided by a power of two, so that the noise repeats after kWorld.
   float edge = std::exp2(std::round(std::log2(std::clamp(period * kPuffs, 1.0f / 16, kWorld))));
   const std::vector<uint8_t>& tile = puffTile();
   float sum = 0, weights = 0;
@@ -93,7 +92,7 @@ float puffHollows(glm::vec3 position, float period, float finest) {
     sum += kWeights[i] * tileAt(tile, position * (kSide / edge));
     weights += kWeights[i];
   }
-  // The mean distance varies little, so stretch it to the whole range 0..1.
+  // The mean has a small range: stretch it to 0..1.
   return std::clamp((sum / weights - 0.30f) / 0.48f, 0.0f, 1.0f);
 }
 

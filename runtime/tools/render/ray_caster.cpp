@@ -19,7 +19,7 @@ bool meetsFront(const RTCFilterFunctionNArguments& at) {
   return ray.dir_x * hit.Ng_x + ray.dir_y * hit.Ng_y + ray.dir_z * hit.Ng_z < 0;
 }
 
-// Filter of rays that hit front sides only: rejects hits on the back of a triangle. Embree calls filters for each hit.
+// Embree filter function, called for each hit: rejects hits on the back of a triangle.
 void dropBack(const RTCFilterFunctionNArguments* at) {
   if (!meetsFront(*at)) at->valid[0] = 0;
 }
@@ -27,15 +27,16 @@ void dropFront(const RTCFilterFunctionNArguments* at) {
   if (meetsFront(*at)) at->valid[0] = 0;
 }
 
-/// A ray to a light, with the data that its filter needs.
+/// Embree's context for a shadow ray, extended by the data that the filter function needs.
 struct LightRay {
-  RTCIntersectContext context;  // first, since Embree passes on a pointer to it
+  RTCIntersectContext context;  // must be first: Embree passes a pointer to the context only
   const RayCaster* mesh;
   std::span<const LetsLight> lets;
   glm::vec3 offset;
 };
 
-// Filter of rays to a light: rejects hits on the front of a triangle, in gaps between sprigs of crowns, and on panes.
+// Embree filter function of shadow rays: rejects hits on the front of a triangle, in gaps between leaves, and on
+// materials that always transmit light.
 void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
   if (meetsFront(*at)) {
     at->valid[0] = 0;
@@ -50,7 +51,8 @@ void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
     at->valid[0] = 0;
     return;
   }
-  constexpr float kSprig = 0.5f, kGap = 0.60f;  // metres; where the noise is above kGap, there is a gap
+  constexpr float kSprig = 0.5f, kGap = 0.60f;  // kSprig: period of the noise in metres; where the noise exceeds kGap,
+                                                // there is a gap
   const glm::vec3 place =
       glm::vec3(ray.org_x, ray.org_y, ray.org_z) + ray.tfar * glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z);
   if (puffHollows(place + light.offset, kSprig, 0.1f) > kGap) at->valid[0] = 0;
@@ -98,7 +100,7 @@ Result<RayCaster> RayCaster::over(std::span<const RenderVertex> vertices, std::s
     caster.lo_ = glm::min(caster.lo_, vertices[index].position);
     caster.hi_ = glm::max(caster.hi_, vertices[index].position);
   }
-  // One thread builds the tree, so that the tree, and with it each picture, is reproducible.
+  // Build Embree's tree with one thread, so that the tree, and thus each picture, is reproducible.
   const RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
   if (!device) return kNoMemory;
   caster.scene_.reset(rtcNewScene(device));
@@ -110,7 +112,7 @@ Result<RayCaster> RayCaster::over(std::span<const RenderVertex> vertices, std::s
                                3 * sizeof(uint32_t), indices.size() / 3);
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(caster.scene_.get(), mesh);
-    // Embree calls the filters of single rays only if the scene enables them.
+    // Without RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION, Embree ignores filter functions that are set for a single ray.
     const RTCSceneFlags closed = gaps == Gaps::closed ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
     rtcSetSceneFlags(caster.scene_.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION | closed));
   }
@@ -146,7 +148,7 @@ bool RayCaster::isFree(glm::vec3 from, glm::vec3 direction, float max_distance) 
   RTCRay ray{};
   aim(ray, from, direction, max_distance);
   rtcOccluded1(scene_.get(), &light.context, &ray);
-  return ray.tfar >= 0;  // Embree sets tfar to -infinity if a ray is blocked
+  return ray.tfar >= 0;  // Embree sets tfar to -infinity if the ray is blocked
 }
 
 }  // namespace sgm

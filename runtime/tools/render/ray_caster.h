@@ -1,5 +1,5 @@
 #pragma once
-// Finds where a ray first hits a mesh.
+// Finds the first hit of a ray with a mesh.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -14,36 +14,36 @@ struct RTCSceneTy;
 
 namespace sgm {
 
-/// Whether a ray may pass between two triangles that share an edge (tiny gaps, faster) or never does (closed).
+/// tiny: rays may slip between two triangles that share an edge, which is faster. closed: they never do.
 enum class Gaps { tiny, closed };
 
-/// Whether a material transmits light: leaves do in spots; panes of lamps and stained glass do everywhere.
+/// Whether a material transmits light: in_spots for leaves, always for window panes and glowing lamps.
 enum class LetsLight : uint8_t { never, in_spots, always };
 
 struct RayHit {
-  float distance = 0;     ///< in multiples of the length of the ray's direction
-  bool front = false;     ///< the surface was hit from its void side
-  uint32_t triangle = 0;  ///< number of the triangle: its first index divided by three
-  float u = 0, v = 0;     ///< barycentric weights of the triangle's second and third corner
-  glm::vec3 facing{0};    ///< the triangle's normal, not normalised; points to the void side
+  float distance = 0;     ///< distance of the hit in multiples of the length of the ray's direction vector
+  bool front = false;     ///< true if the ray hits the triangle's front, which faces the void
+  uint32_t triangle = 0;  ///< index of the triangle: its first vertex index is at 3 * triangle
+  float u = 0, v = 0;     ///< barycentric weights of the triangle's second and third corners
+  glm::vec3 facing{0};    ///< normal of the triangle, pointing into the void; not unit length
 };
 
-/// An Embree tree over triangles. Keeps references to the passed spans. Any number of threads may cast rays
-/// concurrently.
+/// An Embree acceleration structure over triangles. Keeps references to its vertices and indices. All const functions
+/// are thread-safe.
 class RayCaster {
  public:
-  /// Every index must be below vertices.size(). Error: out_of_memory.
+  /// Contract: every index is below vertices.size(). Error: out_of_memory.
   static Result<RayCaster> over(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
                                 Gaps gaps = Gaps::tiny);
 
   std::optional<RayHit> cast(glm::vec3 from, glm::vec3 direction, float max_distance) const;
-  /// As cast(), but ignores triangles that are hit from inside the solid, which an eye does not see.
+  /// Like cast(), but ignores hits on the back of a triangle: a viewer in the void does not see them.
   std::optional<RayHit> castFronts(glm::vec3 from, glm::vec3 direction, float max_distance) const;
-  /// From now on, isFree() lets light pass through bodies according to `lets`, indexed by material. offset: vector from
-  /// the scene's origin to the origin of the patterns, metres. Keeps a reference to the span.
+  /// Makes isFree() let light pass through materials that transmit it. lets: indexed by material; the caller keeps it
+  /// alive. offset: Frame::pattern_offset, metres, for the gaps between leaves.
   void loosen(std::span<const LetsLight> lets, glm::vec3 offset);
-  /// Whether light travels along the ray from its end to its start. Triangles that face the start do not block the
-  /// light, since they show it their back; nor do bodies whose materials transmit light (loosen()).
+  /// Whether light from the end of the ray reaches its start. Only triangles whose front faces the light block it, and
+  /// only if their material does not transmit light (see loosen()).
   bool isFree(glm::vec3 from, glm::vec3 direction, float max_distance) const;
 
   size_t triangleCount() const { return indices_.size() / 3; }
@@ -51,9 +51,9 @@ class RayCaster {
     return vertices_[indices_[size_t{3} * triangle + static_cast<size_t>(corner)]];
   }
   glm::vec3 corner(uint32_t triangle, int i) const { return vertex(triangle, i).position; }
-  /// Not normalised; points to the void side.
+  /// Normal of a triangle, pointing into the void; not unit length.
   glm::vec3 facing(uint32_t triangle) const;
-  /// Bounds of the mesh; lo > hi if the mesh is empty.
+  /// Lower and upper corner of the mesh's bounding box; lo > hi if the mesh is empty.
   glm::vec3 lo() const { return lo_; }
   glm::vec3 hi() const { return hi_; }
 
@@ -68,7 +68,7 @@ class RayCaster {
   std::span<const RenderVertex> vertices_;
   std::span<const uint32_t> indices_;
   std::unique_ptr<RTCSceneTy, Release> scene_;
-  std::span<const LetsLight> lets_;  ///< indexed by material; empty: no material transmits light
+  std::span<const LetsLight> lets_;  ///< indexed by material; if empty, no material transmits light
   glm::vec3 offset_{0};
   glm::vec3 lo_{1e30f}, hi_{-1e30f};
 };

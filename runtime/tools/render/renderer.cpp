@@ -18,7 +18,7 @@
 namespace sgm {
 namespace {
 
-constexpr uint32_t kGroup = 8;  // shade.comp's workgroup has kGroup * kGroup pixels
+constexpr uint32_t kGroup = 8;  // width and height in pixels of a workgroup of shade.comp
 
 Error invalid(const std::string& message) { return {Code::invalid_argument, message}; }
 
@@ -61,19 +61,19 @@ Result<void> check(const RenderScene& scene, const VkPhysicalDeviceLimits& limit
 
 template <class T>
 Result<VulkanBuffer> upload(VulkanScope& scope, std::span<const T> values, VkBufferUsageFlags usage) {
-  // Vulkan has no empty buffers; for an empty mesh the buffer has four bytes.
+  // Vulkan does not allow empty buffers: an empty mesh gets a buffer of four bytes.
   auto buffer = scope.buffer(std::max<VkDeviceSize>(values.size_bytes(), 4), usage);
   if (buffer && !values.empty()) std::memcpy(buffer->data, values.data(), values.size_bytes());
   return buffer;
 }
 
-/// The exposure adapts to the light, but not fully: a dark place stays darker than a bright one. By day, the exposure
-/// is limited, so that pale surfaces do not burn out if most surfaces are dark.
+/// The exposure adapts to the brightness of the picture, but only in part: a dark place stays darker than a bright one.
+/// Under a sky, it is limited so that pale surfaces do not burn out if most surfaces are dark.
 float exposureFor(const LightPlanes& light, Background background) {
   if (light.brightness <= 0) return 1;
   if (background == Background::sky) {
-    constexpr float kWhite = 1.2f;  // brightness that appears just below white
-    // Under a roof, where visible surfaces get little light, the exposure rises until the sky in the windows burns out.
+    constexpr float kWhite = 1.2f;  // brightness that is drawn just below white
+    // Indoors, where visible surfaces get little light, the exposure may rise until the sky in the windows burns out.
     const float indoors = 1 - glm::smoothstep(0.20f, 0.45f, light.lit);
     const float mean = std::pow(0.20f / light.brightness, glm::mix(0.4f, 0.8f, indoors));
     return std::clamp(std::min(mean, kWhite / light.highlight), 0.6f, glm::mix(1.5f, 3.0f, indoors));
@@ -85,12 +85,12 @@ float exposureFor(const LightPlanes& light, Background background) {
 
 static_assert(static_cast<uint32_t>(SurfacePattern::leaded) < 31, "a pattern is a bit of ShadePipeline::patterns");
 
-/// The last pipeline for shading, reused while scenes need the same patterns, and the scope that owns it.
+/// The most recent shading pipeline, and the scope that owns it. It is reused if it contains the next scene's patterns.
 struct Renderer::Kept {
   std::unique_ptr<VulkanScope> scope;
   ShadePipeline shade;
 
-  /// Makes the pipeline for the patterns of this scene if necessary. Errors: those of the device.
+  /// Makes a new shading pipeline if the current one lacks a pattern of the scene. Errors: those of the device.
   Result<void> lightPatterns(const VulkanDevice& device, const RenderScene& scene) {
     constexpr uint32_t kSkyBit = 1u << 31;
     uint32_t patterns = scene.background == Background::sky ? kSkyBit : 0;
@@ -174,7 +174,7 @@ Result<Image> Renderer::draw(const RenderScene& scene) const {
   if (!shade_set) return shade_set.error();
 
   auto drawn = device_->run([&](VkCommandBuffer commands) {
-    const std::array<VkClearValue, 3> clear{};  // alpha 0 stands for the background, reversed depth 0 for infinity
+    const std::array<VkClearValue, 3> clear{};  // zeros: alpha 0 is background, reversed depth 0 is infinity
     VkRenderPassBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     begin.renderPass = surfaces->render_pass;
@@ -184,7 +184,7 @@ Result<Image> Renderer::draw(const RenderScene& scene) const {
     begin.pClearValues = clear.data();
     calls.vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
     calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, surfaces->draw);
-    // A negative height turns the viewport upside down: our y axis points up, Vulkan's points down.
+    // The negative viewport height flips the picture: the scene's y axis points up, Vulkan's points down.
     const float w = static_cast<float>(surfaces->extent.width), h = static_cast<float>(surfaces->extent.height);
     const VkViewport viewport{0, h, w, -h, 0, 1};
     calls.vkCmdSetViewport(commands, 0, 1, &viewport);

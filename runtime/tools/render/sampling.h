@@ -1,5 +1,5 @@
 #pragma once
-// Random numbers and directions for light rays, reproducible for each pixel.
+// Random numbers and directions for ray tracing, reproducible for each pixel.
 
 #include <cmath>
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace sgm {
 
-/// A sequence of points that cover the unit square evenly for any number of points (Roberts, "The unreasonable
-/// effectiveness of quasirandom sequences", 2018). The sequence is shifted for each pixel and purpose.
+/// A low-discrepancy sequence: points that cover the unit square evenly, however many are drawn (Roberts, "The
+/// unreasonable effectiveness of quasirandom sequences", 2018). Each pixel and each purpose gets its own random offset.
 class UnitPoints {
  public:
   UnitPoints(uint32_t x, uint32_t y, uint32_t purpose) {
@@ -37,7 +37,8 @@ class UnitPoints {
   int count_ = 0;
 };
 
-/// Two unit axes perpendicular to a unit normal (Duff et al., "Building an orthonormal basis, revisited", 2017).
+/// Two unit vectors perpendicular to a unit normal and to each other (Duff et al., "Building an orthonormal basis,
+/// revisited", 2017).
 struct Across {
   glm::vec3 x, y;
 
@@ -48,14 +49,14 @@ struct Across {
   }
 };
 
-/// Maps the unit square to the unit disc. The map of Shirley and Chiu would be more even, but rays are few, and their
-/// results are filtered.
+/// Maps the unit square to the unit disc. The concentric map of Shirley and Chiu would be more even; this one suffices,
+/// since a filter smooths the results.
 inline glm::vec2 onDisc(glm::vec2 unit) {
   const float r = std::sqrt(unit.x), angle = 6.28318531f * unit.y;
   return r * glm::vec2(std::cos(angle), std::sin(angle));
 }
 
-/// A random direction in the hemisphere around a unit normal, with probability density proportional to the cosine.
+/// A random direction in the hemisphere around the unit normal n, with a density proportional to the cosine.
 inline glm::vec3 cosineDirection(glm::vec3 n, glm::vec2 unit) {
   const glm::vec2 at = onDisc(unit);
   const Across across(n);

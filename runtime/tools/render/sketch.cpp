@@ -15,8 +15,8 @@
 namespace sgm {
 namespace {
 
-constexpr int kNearRays = 4;  // number of rays that measure how narrow a place is
-constexpr float kFar = 1e5f;  // metres, length of rays that go to infinity
+constexpr int kNearRays = 4;  // number of rays that measure how open the surroundings of a place are
+constexpr float kFar = 1e5f;  // metres, maximum length of a ray
 
 class Sketch {
  public:
@@ -96,7 +96,7 @@ Result<Image> sketch(const RenderScene& scene, const RayCaster& mesh, JobSystem&
       for (int x = 0; x < width; ++x)
         colours[y * static_cast<size_t>(width) + static_cast<size_t>(x)] = picture.at(x, static_cast<int>(y));
     });
-    // The exposure adapts to the geometric mean of the brightness, as in the real picture.
+    // As in the final picture, the exposure adapts to the geometric mean of the brightness.
     BrightnessTally tally;
     for (const vec3& colour : colours) {
       const float light = dot(colour, vec3(0.2126f, 0.7152f, 0.0722f));
@@ -110,7 +110,7 @@ Result<Image> sketch(const RenderScene& scene, const RayCaster& mesh, JobSystem&
     image.rgba.reserve(4 * colours.size());
     for (const vec3& colour : colours) {
       for (int channel = 0; channel < 3; ++channel) {
-        // Narkowicz's approximation of the ACES filmic curve, as in the shaders.
+        // Narkowicz's approximation of the ACES filmic curve, which the shaders use too.
         const float c = 0.8f * gain * colour[channel];
         const float toned = std::clamp(c * (2.51f * c + 0.03f) / (c * (2.43f * c + 0.59f) + 0.14f), 0.0f, 1.0f);
         image.rgba.push_back(static_cast<uint8_t>(encodedSrgb(toned) * 255 + 0.5f));

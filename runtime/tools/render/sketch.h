@@ -1,5 +1,5 @@
 #pragma once
-// Draws a preview picture in a fraction of a second, to be shown until the real picture is drawn.
+// Draws a preview in a fraction of a second, to be shown until the final picture is ready.
 
 #include <functional>
 
@@ -11,9 +11,9 @@
 
 namespace sgm {
 
-/// Draws the scene on the CPU alone: every surface in its material's plain colour, with hard shadows of the scene's
-/// lights, and even ambient light. mesh: ray caster over the scene's triangles. The same scene gives the same bytes.
-/// Errors: invalid_argument (a camera value is out of range, there are too many lamps, or no material), out_of_memory.
+/// Draws a preview of the scene on the CPU: surfaces in plain colours, hard shadows and even ambient light. mesh: ray
+/// caster over the scene's triangles. The same scene gives the same bytes. Errors: invalid_argument if a camera value
+/// is out of range, there are too many lamps or no material; out_of_memory.
 Result<Image> sketch(const RenderScene& scene, const RayCaster& mesh, JobSystem& jobs);
 
 }  // namespace sgm

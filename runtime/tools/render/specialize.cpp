@@ -24,7 +24,8 @@ Result<std::vector<uint32_t>> specialized(std::span<const uint32_t> code, uint32
         .RegisterPass(spvtools::CreateDeadBranchElimPass())
         .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
     spvtools::OptimizerOptions options;
-    options.set_run_validator(false);  // glslang has generated this code, and the tests use validation layers
+    // Validation is unnecessary here: the code is from glslang, and the tests run it with the validation layer.
+    options.set_run_validator(false);
     std::vector<uint32_t> made;
     if (!optimizer.Run(code.data(), code.size(), &made, options)) {
       return Error{Code::unsupported,

@@ -10,7 +10,7 @@ namespace sgm {
 
 namespace {
 
-/// Whether a pane is clear, so that the scene behind it is visible: see MaterialLook.
+/// Whether the material is a clear window pane, which shows the scene behind it; see kClearPane.
 bool isClearPane(const RenderMaterial& material) {
   return material.pattern == SurfacePattern::glass && material.relief == kClearPane;
 }
@@ -57,7 +57,8 @@ MetSurface TracedScene::meet(vec3 from, vec3 direction) const {
   for (int i = 0; i < 3; ++i) {
     const RenderVertex& vertex = mesh_.vertex(hit->triangle, i);
     place.normal += share[static_cast<size_t>(i)] * vertex.normal;
-    // Hanika, "Hacking the shadow terminator", 2021: the smooth surface bulges out of the triangle.
+    // Lift the start of secondary rays to the curved surface that the normals suggest (Hanika, "Hacking the shadow
+    // terminator", 2021).
     const vec3 from_corner = place.position - vertex.position;
     lifted += share[static_cast<size_t>(i)] * std::min(0.0f, dot(from_corner, vertex.normal)) * vertex.normal;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The surfaces that light rays meet.
+// The surfaces of a scene that rays hit.
 
 #include <algorithm>
 #include <cstdint>
@@ -14,26 +14,27 @@ namespace sgm {
 
 inline constexpr float kLongestRay = 1e5f;  ///< metres
 
-/// A surface that a ray hits.
+/// The point at which a ray hits a surface.
 struct MetSurface {
   vec3 position{0};
-  vec3 normal{0};  ///< interpolated as for shading, unit length
-  vec3 start{0};   ///< start of secondary rays: off the triangle, to follow the curved surface
+  vec3 normal{0};  ///< unit normal, interpolated between the corners
+  vec3 start{0};   ///< start of secondary rays, lifted off the triangle to the curved surface
   uint32_t triangle = 0;
   uint32_t material = 0;
-  uint32_t second = 0;  ///< material to blend with
-  float distance = -1;  ///< below 0: no surface
+  uint32_t second = 0;  ///< index of the second material, which is blended with `material`
+  float distance = -1;  ///< metres from the ray's start; negative if the ray hits no surface
 
   bool isThere() const { return distance >= 0; }
 };
 
-/// Returns whether light passes through a material.
+/// Whether a material transmits light.
 LetsLight letsLight(const RenderMaterial& material);
 
-/// Start of the ray behind a window's surface: inside the pane, whose other side is then hit from inside.
+/// Start of the ray that continues behind a window pane: just inside the pane, whose far side is hit from its back and
+/// thus ignored.
 inline vec3 behind(const MetSurface& pane, vec3 direction) { return pane.position + 2e-3f * direction; }
 
-/// The mesh, the materials and the camera of one picture. Keeps references to them.
+/// The mesh, the materials and the camera of a picture, for ray tracing. Keeps references to its arguments.
 class TracedScene {
  public:
   TracedScene(const RenderScene& scene, const Frame& frame, const RayCaster& mesh)
@@ -43,23 +44,23 @@ class TracedScene {
   const Frame& frame() const { return frame_; }
   const RayCaster& mesh() const { return mesh_; }
 
-  /// Through a pixel's first sample, or `off` pixels beside it.
+  /// Direction from the eye through the first sample of pixel (x, y), shifted by `off` pixels.
   vec3 directionAt(uint32_t x, uint32_t y, glm::vec2 off = glm::vec2(0)) const;
-  /// The visible surface: skips gaps in crowns.
+  /// The visible surface at the first sample of pixel (x, y); looks through the gaps in tree crowns.
   MetSurface seenAt(uint32_t x, uint32_t y) const;
-  /// The first surface on a ray, hit from its void side.
+  /// The first hit of a ray on the front of a triangle.
   MetSurface meet(vec3 from, vec3 direction) const;
 
   const RenderMaterial& material(uint32_t index) const {
     return scene_.materials[std::min<size_t>(index, scene_.materials.size() - 1)];
   }
   vec3 colourOf(uint32_t index) const { return material(index).colour; }
-  /// Water, panes, and equally smooth paint.
+  /// Whether a material mirrors: water, glass panes and very smooth paint do.
   bool isMirror(uint32_t index) const;
-  /// Panes through which the scene behind them is visible: see MaterialLook.
+  /// Whether a material is a clear window pane, which shows the scene behind it; see kClearPane.
   bool isClear(uint32_t index) const;
   bool isLeaded(uint32_t index) const { return material(index).pattern == SurfacePattern::leaded; }
-  /// Panes that transmit rays.
+  /// Whether a material is a window pane that rays pass through.
   bool isPane(uint32_t index) const { return isLeaded(index) || isClear(index); }
   bool isWater(uint32_t index) const { return material(index).pattern == SurfacePattern::water; }
   bool hasWater() const;

@@ -18,15 +18,17 @@ namespace sgm {
 namespace {
 
 constexpr float kPi = 3.14159265f;
-constexpr int kCoarser = 2;  // density cells from one lattice point of light to the next
+constexpr int kCoarser = 2;  // spacing of the light lattice in cells of the density lattice
 constexpr float kStep = 0.5f, kOpaque = 0.004f;
 constexpr float kForward = 0.82f;  // mean cosine of the scattering angle of droplets (g)
 constexpr int kOctaves = 7;
-constexpr float kKept = 0.82f;  // total weight of all octaves, so that a cloud emits no more light than it receives
-/// The noise moves the boundary between these limits inwards and outwards; rims become thin over the width kEdge.
+constexpr float kKept = 0.82f;  // factor of the sum over octaves, so that a cloud emits no more light than it receives
+/// Where the smoothed outline is below kThinnest, there is no cloud. Noise erodes the boundary by up to kErosion;
+/// density rises over the width kEdge.
 constexpr float kThinnest = 0.05f, kErosion = 0.92f, kEdge = 0.24f;
-constexpr float kDeepest = 0.78f;  // limit of creases: deeper ones would appear as dark dots between three puffs
-constexpr float kPuff = 9;         // cells, period of the largest puffs
+// Maximum of the noise in creases between puffs: higher values would look like dark dots where three puffs meet.
+constexpr float kDeepest = 0.78f;
+constexpr float kPuff = 9;  // period of the largest puffs, in cells
 
 vec3 withoutZeros(vec3 d) {
   for (int axis = 0; axis < 3; ++axis)
@@ -34,13 +36,13 @@ vec3 withoutZeros(vec3 d) {
   return d;
 }
 
-/// The phase function of Henyey and Greenstein (1941). cosine: of the scattering angle; g: its mean.
+/// Henyey-Greenstein phase function (1941). cosine: cosine of the scattering angle; g: mean of that cosine.
 float phase(float cosine, float g) {
   const float s = 1 + g * g - 2 * g * cosine;
   return (1 - g * g) / (4 * kPi * s * std::sqrt(s));
 }
 
-/// The mean radiance of the upper hemisphere (up = 1, sky) or the lower one (up = -1, land).
+/// Mean radiance over the upper hemisphere (up = 1: sky) or the lower hemisphere (up = -1: land).
 vec3 meanLight(vec3 to_sun, float up) {
   constexpr int kRings = 8, kAround = 16;
   vec3 sum(0);
@@ -54,7 +56,7 @@ vec3 meanLight(vec3 to_sun, float up) {
   return sum / static_cast<float>(kRings * kAround);
 }
 
-/// Makes a light whiter: high up the sun is whiter than on the ground, and clouds scatter each other's light.
+/// Makes light whiter: high up, sunlight is whiter than on the ground, and clouds scatter light onto each other.
 vec3 whitened(vec3 light) { return mix(light, vec3(dot(light, vec3(0.2126f, 0.7152f, 0.0722f))), 0.55f); }
 
 }  // namespace
@@ -133,7 +135,7 @@ void Vapour::light(JobSystem& jobs) {
     for (int y = 0; y < size.y; ++y) {
       for (int x = 0; x < size.x; ++x) {
         const glm::ivec3 point = glm::ivec3(x, y, z) * kCoarser;
-        // Only lattice points near cells with density are computed, since light is interpolated between lattice points.
+        // Light is interpolated between lattice points, so only points near cells with density are needed.
         bool seen = false;
         for (int i = 0; i < 8 && !seen; ++i) {
           const glm::ivec3 away = (glm::ivec3(i & 1, i >> 1 & 1, i >> 2) * 2 - 1) * kCoarser;
@@ -162,7 +164,8 @@ void Vapour::light(JobSystem& jobs) {
   });
 }
 
-// The density at a place: the boundary displaced by puffs that are not smaller than `footprint`, in cells.
+// The density at a place in detail: noise puffs displace the boundary. footprint: size in cells below which puffs are
+// omitted.
 float Vapour::densityAt(vec3 place, float footprint) const {
   const Stuff& stuff = stuffAt(place);
   const float outline = density_.outlineAt(place);
@@ -184,13 +187,14 @@ glm::vec4 Vapour::litAt(vec3 place) const {
   return glm::mix(glm::mix(along(0), along(row), f.y), glm::mix(along(slice), along(slice + row), f.y), f.z);
 }
 
-/// Radiance that a place scatters into a ray. Sunlight is a sum over octaves of scattering; the first octave is single
-/// scattering. Light that is scattered repeatedly goes farther and loses its direction, so each further octave has a
-/// share of the previous octave's extinction and mean cosine (Wrenninge, Kulla and Lundqvist 2013, "Oz: the great and
-/// volumetric"). The energy passed on to the next octave is the share that does not escape from the cloud.
+/// Radiance that the cloud at a place scatters into a ray. Sunlight is a sum over octaves of scattering; the first
+/// octave is single scattering. Light that is scattered repeatedly goes farther and loses its direction. Each further
+/// octave therefore has smaller extinction and a smaller mean cosine than the previous one (Wrenninge, Kulla and
+/// Lundqvist 2013, "Oz: the great and volumetric"). Its energy is the part of the previous octave's energy that does
+/// not escape from the cloud.
 vec3 Vapour::sourceAt(vec3 place, float cosine, float footprint) const {
   const glm::vec4 lit = litAt(place);
-  // Near the place, the light crosses puffs that are smaller than the lattice resolves: sample these directly.
+  // Close to the place, sample the puffs towards the sun directly: they are smaller than the light lattice resolves.
   constexpr std::array kNear{0.6f, 1.9f, 4.0f}, kLong{1.2f, 1.5f, 2.8f};
   float near = 0;
   for (size_t i = 0; i < kNear.size(); ++i)
@@ -246,7 +250,7 @@ float Vapour::sunThrough(vec3 position) const {
   const glm::vec2 ends = density_.crossing(place, d);
   if (ends.y <= std::max(ends.x, 0.0f)) return 1;
   const float depth = opticalDepth(place + d * std::max(ends.x, 0.0f), to_sun_);
-  // The second term stands for forward-scattered light, which still arrives through thick clouds.
+  // The second term stands for forward-scattered light, which still arrives behind thick clouds.
   return 0.75f * std::exp(-depth) + 0.25f / (1 + 0.25f * depth);
 }
 

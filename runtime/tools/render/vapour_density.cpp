@@ -13,14 +13,15 @@ namespace sgm {
 namespace {
 
 constexpr double kMaxPoints = double{1 << 25};
-constexpr int kMargin = 6;                  // points around the mesh, which leave space for smoothing
-constexpr int kSubColumns = 2;              // columns of rays on each side of a cell's face
-constexpr std::array kSoftenings{1, 2, 3};  // cells, radii of successive smoothing passes
-/// Mean optical depth of a cloud, with which its middle is nearly opaque and its base is grey. It is the same for
-/// clouds of any size: a small cloud beside a tower appears as dense as a large one far away.
+constexpr int kMargin = 6;                  // number of empty lattice points around the mesh, which smoothing needs
+constexpr int kSubColumns = 2;              // number of rays along each side of a cell's footprint
+constexpr std::array kSoftenings{1, 2, 3};  // radii of the successive smoothing passes, in cells
+/// Mean optical depth of a cloud: its middle is nearly opaque and its base is grey. It is the same for clouds of all
+/// sizes, so that a small cloud beside a tower looks as dense as a large one far away.
 constexpr float kMeanDepth = 20;
-constexpr float kLongestChord = 600;  // metres, limit of the chord through endless cloud decks
-/// Smoothed shares of the inside at which a cloud begins (a little outside the mesh) and has its full density.
+constexpr float kLongestChord = 600;  // metres; limit of a cloud's mean chord, reached in endless cloud decks
+/// Values of the smoothed outline at which a cloud begins (kThin, a little outside the mesh) and has full density
+/// (kDense).
 constexpr float kThin = 0.28f, kDense = 0.85f;
 
 float areaOf(const RayCaster& mesh) {
@@ -31,7 +32,7 @@ float areaOf(const RayCaster& mesh) {
 
 Lattice latticeOver(const RayCaster& outline) {
   const glm::vec3 extent = outline.hi() - outline.lo();
-  // Cells are as fine as the mesh, whose triangles cover half a cell's face on average, if memory allows.
+  // If memory allows, cells are as fine as the mesh, assuming that a triangle covers half of a cell's face.
   const float mean = std::sqrt(2 * areaOf(outline) / static_cast<float>(outline.triangleCount()));
   const double volume = double{extent.x} * static_cast<double>(extent.y) * static_cast<double>(extent.z);
   Lattice lattice;
@@ -62,11 +63,11 @@ VapourDensity::VapourDensity(const RayCaster& outline, JobSystem& jobs) : lattic
   markBricks(jobs);
 }
 
-// Casts rays upwards through columns of cells to find the intervals inside the mesh. Where a region has cut the mesh
-// open, the lattice's border closes it.
+// Casts rays upwards to find the intervals of each column of cells that are inside the mesh. If the region's border has
+// cut the mesh open, an interval ends at the end of the mesh's bounding box.
 void VapourDensity::fillColumns(const RayCaster& outline, JobSystem& jobs) {
   const float high = outline.hi().y - outline.lo().y, step = 1e-5f * (high + lattice_.spacing);
-  // One job handles a whole slice of bricks, so that it can also set their materials.
+  // One job handles a whole slice of bricks, since it also sets the bricks' materials without a lock.
   parallelFor(jobs, size_t(brick_count_.z), [&](size_t slice) {
     std::vector<float> column(static_cast<size_t>(lattice_.size.y));
     const int first = int(slice) * kBrick;
@@ -74,7 +75,7 @@ void VapourDensity::fillColumns(const RayCaster& outline, JobSystem& jobs) {
     for (int z = first; z < end; ++z) {
       for (int x = 0; x < lattice_.size.x; ++x) {
         std::ranges::fill(column, 0.0f);
-        // From, to: metres above the mesh's lowest point.
+        // Adds the interval from..to, in metres above the mesh's lowest point, to the column.
         const auto fill = [&](float from, float to, uint32_t material) {
           const float lo = from / lattice_.spacing + kMargin + 0.5f, hi = to / lattice_.spacing + kMargin + 0.5f;
           for (int y = std::max(0, int(lo)); y <= std::min(int(hi), lattice_.size.y - 1); ++y) {
@@ -85,7 +86,8 @@ void VapourDensity::fillColumns(const RayCaster& outline, JobSystem& jobs) {
           }
         };
         for (int sub = 0; sub < kSubColumns * kSubColumns; ++sub) {
-          // The offset 0.517 avoids the planes of the grid on which the mesh was sampled.
+          // The odd offset keeps rays off the planes of the grid on which the mesh was sampled, where they would hit
+          // edges.
           const glm::vec2 cell(float(sub % kSubColumns), float(sub / kSubColumns));
           const glm::vec2 off = (cell + 0.517f) / float(kSubColumns) - 0.5f;
           const float from_x = lattice_.corner.x + lattice_.spacing * (float(x) + off.x);
@@ -114,13 +116,14 @@ void VapourDensity::fillColumns(const RayCaster& outline, JobSystem& jobs) {
   });
 }
 
-// Replaces each value by the mean over itself and both neighbours at distance `reach`, one axis after another.
+// Smooths along one axis after the other: each value becomes the weighted mean (1:2:1) of itself and the values at
+// distance `reach` on both sides.
 void VapourDensity::soften(int reach, JobSystem& jobs) {
   const auto off = static_cast<size_t>(reach);
   const glm::ivec3 size = lattice_.size;
   const std::array<size_t, 3> strides{1, size_t(size.x), size_t(size.x) * size_t(size.y)};
   for (int axis = 0; axis < 3; ++axis) {
-    const int across = axis == 2 ? 1 : 2;  // the axis along which the loop is parallel
+    const int across = axis == 2 ? 1 : 2;  // axis over which the loop runs in parallel
     const int other = 3 - axis - across;
     const size_t stride = strides[size_t(axis)];
     parallelFor(jobs, size_t(size[across]), [&](size_t slice) {
@@ -137,7 +140,7 @@ void VapourDensity::soften(int reach, JobSystem& jobs) {
   }
 }
 
-// Bricks into which smoothing has spread density take the material of a neighbouring brick.
+// Gives bricks without a material, into which smoothing has spread density, the material of a neighbouring brick.
 void VapourDensity::markBricks(JobSystem& jobs) {
   const std::vector<uint16_t> within = bricks_;
   parallelFor(jobs, size_t(brick_count_.z), [&](size_t slice) {

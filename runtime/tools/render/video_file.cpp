@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kLastWords = 300;
 
-/// The last line in a file.
+/// The last line of a file, at most kLastWords bytes.
 std::string lastLine(int file) {
   constexpr uint64_t kEnd = 4096;
   platform::FileStatus status;

@@ -1,5 +1,5 @@
 #pragma once
-// Writes a video; the program ffmpeg encodes it picture by picture.
+// Writes a video, which the program ffmpeg encodes frame by frame.
 
 #include <memory>
 #include <optional>
@@ -19,17 +19,17 @@ class VideoFile {
     int rate = 30;  ///< pictures a second
   };
 
-  /// Starts the encoder. Errors: unsupported if ffmpeg is not on the PATH; io if the file cannot be written.
+  /// Starts ffmpeg. Errors: unsupported if ffmpeg is not on the PATH; io if the file cannot be written.
   static Result<std::unique_ptr<VideoFile>> begin(const std::string& target, UnfinishedFiles* unfinished,
                                                   const Format& format);
-  /// Without commit(), removes the file.
+  /// Deletes the unfinished file unless commit() has succeeded.
   ~VideoFile() = default;
   VideoFile(const VideoFile&) = delete;
   VideoFile& operator=(const VideoFile&) = delete;
 
-  /// Adds a picture, which must have the format's size. Error: io if the encoder has ended.
+  /// Adds a frame, which must have the size of Format. Error: io if ffmpeg has ended.
   Result<void> add(const Image& image);
-  /// Waits until the encoder has finished, then renames the file to its target. Error: io.
+  /// Waits until ffmpeg has finished, then renames the file to its final name. Error: io.
   Result<void> commit();
 
  private:
@@ -39,7 +39,7 @@ class VideoFile {
   Error failed(const platform::ProcessExit& exit) const;
 
   FileWriter file_;
-  platform::File words_;  ///< the encoder's messages
+  platform::File words_;  ///< file with ffmpeg's messages
   std::optional<platform::Process> encoder_;
 };
 

@@ -14,8 +14,10 @@
 namespace sgm {
 namespace {
 
-constexpr uint32_t kBrick = 8;                      // cells along an edge of a brick, as in shaders/volume/volume.glsl
-constexpr uint32_t kPixelGroup = 8, kLitGroup = 4;  // points along an edge of a workgroup
+constexpr uint32_t kBrick = 8;                      // cells along an edge of a brick; the same as in
+                                                    // shaders/volume/volume.glsl
+constexpr uint32_t kPixelGroup = 8, kLitGroup = 4;  // invocations along an edge of a workgroup, for pixels and for
+                                                    // lattice points
 
 constexpr VkFormat kLitFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
@@ -43,7 +45,7 @@ VolumeFrame frameOf(const VolumeScene& scene, VkExtent3D lit) {
   return frame;
 }
 
-/// For each brick of cells, 1 if a point in it or on its faces has density.
+/// For each brick of cells: 1 if a point in the brick or on its faces has density, otherwise 0.
 std::vector<uint32_t> bricksOf(const VolumeScene& scene) {
   const glm::uvec3 count = (scene.size - 2u) / kBrick + 1u;
   std::vector<uint32_t> bricks(size_t{count.x} * count.y * count.z);
@@ -78,7 +80,7 @@ constexpr std::array kBindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DES
                                VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
-/// The resource of a binding, either an image view or a buffer; the other is null.
+/// The resource of a descriptor: an image view or a buffer. The unused member is null.
 struct Bound {
   VkImageView view = VK_NULL_HANDLE;
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
@@ -126,7 +128,7 @@ uint32_t groups(uint32_t count, uint32_t group) { return (count + group - 1) / g
 Result<VolumePass> makeVolumePass(VulkanScope& scope, const VolumeScene& scene) {
   VolumePass pass;
   pass.extent = {scene.size.x, scene.size.y, scene.size.z};
-  // Light changes slowly within the volume, so it is computed at every second point only.
+  // Light changes slowly within the volume, so it is computed at every second point along each axis only.
   pass.lit_extent = {scene.size.x / 2 + 1, scene.size.y / 2 + 1, scene.size.z / 2 + 1};
   pass.picture = {static_cast<uint32_t>(scene.camera.width), static_cast<uint32_t>(scene.camera.height)};
   const VkDeviceSize pixel_count = VkDeviceSize{pass.picture.width} * pass.picture.height;

@@ -1,12 +1,13 @@
 #pragma once
-// The passes of a picture of fog: light through the volume, rays from the eye, and conversion to pixels.
+// The compute passes that draw a picture of fog: light in the volume, ray marching from the eye, and conversion to
+// pixels.
 
 #include "tools/render/volume.h"
 #include "tools/render/vulkan_scope.h"
 
 namespace sgm {
 
-/// The resources of the passes.
+/// The Vulkan resources of the fog passes.
 struct VolumePass {
   VkExtent3D extent{}, lit_extent{};
   VkExtent2D picture{};
@@ -17,10 +18,10 @@ struct VolumePass {
   VkPipeline light_pipeline = VK_NULL_HANDLE, march = VK_NULL_HANDLE, compose = VK_NULL_HANDLE;
 };
 
-/// Contract: the scene is checked.
+/// Makes the resources of the fog passes and uploads the scene. Contract: the scene has been checked.
 Result<VolumePass> makeVolumePass(VulkanScope& scope, const VolumeScene& scene);
 
-/// Records the passes. When they have run, `light` and `pixels` may be read.
+/// Records the fog passes. When the device has run them, the host may read `light` and `pixels`.
 void recordVolume(const DrawingTable& calls, VkCommandBuffer commands, const VolumePass& pass);
 
 }  // namespace sgm

@@ -5,7 +5,8 @@
 namespace sgm {
 namespace {
 
-constexpr uint64_t kTimeoutNanoseconds = 600'000'000'000;  // software Vulkan may need minutes for a huge scene
+constexpr uint64_t kTimeoutNanoseconds = 600'000'000'000;  // ten minutes: a software device may need minutes for a huge
+                                                           // scene
 
 bool loadDrawing(const vulkan::InstanceTable& instance, VkDevice device, DrawingTable& table) {
   bool complete = vulkan::loadDevice(instance, device, table);
@@ -17,7 +18,7 @@ bool loadDrawing(const vulkan::InstanceTable& instance, VkDevice device, Drawing
   return complete;
 }
 
-// The devices with Vulkan 1.2. Older devices are omitted, so that indices count usable devices only.
+// The devices that support Vulkan 1.2. Other devices are not listed, so that they do not count in GpuOptions::index.
 Result<std::vector<VkPhysicalDevice>> usableDevices(const vulkan::Instance& instance) {
   auto all = instance.devices();
   if (!all) return all.error();
@@ -146,7 +147,7 @@ Result<void> VulkanDevice::run(const std::function<void(VkCommandBuffer)>& recor
     submit.pCommandBuffers = &commands;
     result = calls_.vkQueueSubmit(queue_, 1, &submit, fence);
     if (result == VK_SUCCESS) result = calls_.vkWaitForFences(device_, 1, &fence, VK_TRUE, kTimeoutNanoseconds);
-    if (result != VK_SUCCESS) calls_.vkDeviceWaitIdle(device_);  // objects destroyed below may still be in use
+    if (result != VK_SUCCESS) calls_.vkDeviceWaitIdle(device_);  // the objects destroyed below may still be in use
   }
   calls_.vkDestroyFence(device_, fence, nullptr);
   calls_.vkDestroyCommandPool(device_, pool, nullptr);

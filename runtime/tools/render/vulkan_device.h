@@ -1,5 +1,5 @@
 #pragma once
-// A Vulkan instance and device of our own, which runs one batch of commands at a time.
+// A Vulkan instance and device that the renderer owns. The device runs one batch of commands at a time.
 
 #include <cstdint>
 #include <functional>
@@ -14,28 +14,28 @@
 namespace sgm {
 
 struct GpuOptions {
-  int index = -1;           ///< index into listGpus(); -1: the device of the fastest kind available
-  bool validation = false;  ///< loads VK_LAYER_KHRONOS_validation; its absence is an error
+  int index = -1;           ///< index into the result of listGpus(); -1: a device of the fastest kind
+  bool validation = false;  ///< loads VK_LAYER_KHRONOS_validation; create() fails if it is not installed
 };
 
-/// All devices of this machine with Vulkan 1.2, including those that cannot mesh. Error: unsupported if there is no
-/// device, loader or driver.
+/// All devices of this machine that support Vulkan 1.2, including those on which meshing is not supported. Error:
+/// unsupported if there is no device, loader or driver.
 Result<std::vector<vulkan::DeviceInfo>> listGpus();
 
-/// Owns the instance, the device and one queue that draws and computes. Not thread-safe, except messages().
+/// Owns a Vulkan instance, a device, and a queue for graphics and compute. Not thread-safe, except messages().
 class VulkanDevice {
  public:
-  /// Error: unsupported (no loader, no driver, no device with that index, no validation layer); the message names the
-  /// package to install.
+  /// Error: unsupported if there is no loader, no driver, no device with that index or no validation layer; the message
+  /// then names the package to install.
   static Result<std::unique_ptr<VulkanDevice>> create(const GpuOptions& options);
   ~VulkanDevice();
   VulkanDevice(const VulkanDevice&) = delete;
   VulkanDevice& operator=(const VulkanDevice&) = delete;
 
-  /// Calls `record` to record commands, submits them and waits until they are done.
+  /// Lets `record` record commands, submits them and waits until the device has run them.
   Result<void> run(const std::function<void(VkCommandBuffer)>& record) const;
 
-  /// Warnings and errors of the validation layer so far; empty if the layer is not loaded. Thread-safe.
+  /// All warnings and errors of the validation layer so far; empty if the layer is not loaded. Thread-safe.
   std::vector<std::string> messages() const { return instance_->messages(); }
 
   const vulkan::DeviceInfo& info() const { return info_; }

@@ -41,7 +41,7 @@ Result<VulkanBuffer> VulkanScope::buffer(VkDeviceSize bytes, VkBufferUsageFlags 
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = bytes;
   info.usage = usage;
-  // Memory is registered for clean-up before the buffer, so that it is freed after the buffer is destroyed.
+  // Clean-ups run in reverse order. The memory is registered first, so that it is freed after the buffer is destroyed.
   VkBuffer handle = VK_NULL_HANDLE;
   VkResult result = calls.vkCreateBuffer(device_.handle(), &info, nullptr, &handle);
   if (result != VK_SUCCESS) return vulkan::errorOf(result, what);

@@ -1,5 +1,5 @@
 #pragma once
-// Vulkan objects that are destroyed together at the end of a scope.
+// Owner of Vulkan objects that are destroyed together.
 
 #include <cstddef>
 #include <functional>
@@ -11,8 +11,8 @@
 
 namespace sgm {
 
-/// A host-visible, coherent and permanently mapped buffer. Each uploaded byte is read about once, so copying it to
-/// device memory would take as long as reading it in place.
+/// A host-visible, coherent and permanently mapped buffer. The device reads each uploaded byte about once, so a copy to
+/// device-local memory would take as long as reading the buffer in place.
 struct VulkanBuffer {
   VkBuffer handle = VK_NULL_HANDLE;
   std::byte* data = nullptr;
@@ -25,7 +25,7 @@ struct VulkanImage {
   VkImageView view = VK_NULL_HANDLE;
 };
 
-/// Creates Vulkan objects, and destroys them in reverse order in its destructor. Not thread-safe.
+/// Creates Vulkan objects and owns them; its destructor destroys them in reverse order. Not thread-safe.
 class VulkanScope {
  public:
   explicit VulkanScope(const VulkanDevice& device) : device_(device) {}
@@ -38,13 +38,13 @@ class VulkanScope {
   Result<VulkanImage> image(VkExtent2D extent, VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect);
   /// A three-dimensional colour image.
   Result<VulkanImage> volume(VkExtent3D extent, VkFormat format, VkImageUsageFlags usage);
-  /// A sampler whose coordinates are clamped to the edge.
+  /// A sampler with the given filter that clamps coordinates to the edge.
   Result<VkSampler> sampler(VkFilter filter = VK_FILTER_NEAREST);
   Result<VkShaderModule> shader(std::span<const uint32_t> spirv);
-  /// Layout of a set with one descriptor for each binding, numbered from 0, all visible to `stages`.
+  /// Layout of a descriptor set: binding i has one descriptor of type types[i], visible to `stages`.
   Result<VkDescriptorSetLayout> setLayout(std::span<const VkDescriptorType> types, VkShaderStageFlags stages);
   Result<VkDescriptorSet> descriptorSet(VkDescriptorSetLayout layout, std::span<const VkDescriptorType> types);
-  /// set: null for a layout without descriptors. push_bytes: 0 for a layout without push constants.
+  /// set: null if the layout has no descriptors. push_bytes: size of the push constants, or 0 for none.
   Result<VkPipelineLayout> pipelineLayout(VkDescriptorSetLayout set, VkShaderStageFlags stages, uint32_t push_bytes);
   Result<VkPipeline> computePipeline(VkShaderModule shader, VkPipelineLayout layout);
   Result<VkRenderPass> renderPass(const VkRenderPassCreateInfo& info);

@@ -7,10 +7,10 @@ namespace sgm {
 
 namespace {
 
-constexpr float kUnderLedge = 2.4f;      // metres of streaks below a ledge
-constexpr float kSplash = 1.5f;          // metres of splashing rain, and of rising damp
-constexpr float kWiderThanLedge = 0.4f;  // metres: minimal width of ground that splashes at a wall
-constexpr float kLedgeStep = 0.25f;      // metres of its tolerated height difference
+constexpr float kUnderLedge = 2.4f;      // metres, length of the streaks that rain leaves below a ledge
+constexpr float kSplash = 1.5f;          // metres, height up to which rain splashes a wall and damp rises in it
+constexpr float kWiderThanLedge = 0.4f;  // metres, minimum width of ground before a wall from which rain splashes
+constexpr float kLedgeStep = 0.25f;      // metres, maximum height difference of the ground within kWiderThanLedge
 
 }  // namespace
 

@@ -1,22 +1,22 @@
 #pragma once
-// How water and weather act on a place, by the surfaces around it.
+// The effects of water and weather on a place, derived from the surfaces around it.
 
 #include "tools/render/sampling.h"
 #include "tools/render/traced_scene.h"
 
 namespace sgm {
 
-/// The depth of water at a place of its surface, metres. The bed is assumed to slope like the shore: a third of the
-/// distance to the shore, as a mean over several directions.
+/// Estimated depth of water in metres at a place on its surface. It grows by a third of a metre for each metre of
+/// distance to the shore, and is a mean over several directions.
 float depthOf(const TracedScene& scene, const MetSurface& place, UnitPoints& points);
 
-/// How wet a surface above water is, 0..1: decreases with height.
+/// Wetness of a surface just above water, 0..1; it decreases with the height above the water.
 float wetness(const TracedScene& scene, const MetSurface& place);
 
-/// How much a ledge keeps rain off a wall, 0..1.
+/// How much a ledge above keeps rain off a wall, 0..1: 1 just below the ledge.
 float ledgeOver(const TracedScene& scene, const MetSurface& place);
 
-/// Nearness of a wall's foot, 0..1: of a flat surface before it that is wider than a ledge.
+/// How near a place on a wall is to the wall's foot, 0..1. The ground at the foot must be flat and wider than a ledge.
 float footUnder(const TracedScene& scene, const MetSurface& place);
 
 }  // namespace sgm

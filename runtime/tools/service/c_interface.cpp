@@ -1,4 +1,4 @@
-// Implements the C interface sgm_service.h with the class Service.
+// Implements the C interface in sgm_service.h by calling the C++ class Service.
 
 #include <sgm/sgm_service.h>
 
@@ -53,14 +53,14 @@ sgm_result fail(sgm_error* out, sgm_result code, std::string_view message) {
     *out = SGM_ERROR_INIT;
     out->code = code;
     size_t size = std::min<size_t>(message.size(), SGM_MESSAGE_SIZE - 1);
-    // Do not cut the message within a UTF-8 character.
+    // Cut a long message between UTF-8 characters, not within one.
     while (size < message.size() && size > 0 && (static_cast<unsigned char>(message[size]) & 0xC0u) == 0x80u) --size;
     std::memcpy(out->message, message.data(), size);
   }
   return code;
 }
 
-/// Runs the body of an interface function. No exception leaves the library: each becomes a result code.
+/// Runs the body of a C function and turns each exception into a result code, since no exception may leave the library.
 template <class Work>
 sgm_result guarded(sgm_error* error, const Work& work) {
   try {
@@ -80,7 +80,7 @@ std::string textOr(const char* text, const char* otherwise) { return text != nul
 Result<ServiceSettings> settingsOf(const sgm_service_desc& desc) {
   ServiceSettings settings;
   settings.access.address = textOr(desc.address, "127.0.0.1");
-  // An empty token is rejected: a token read from an empty file must not disable access control.
+  // Reject an empty token: it may come from an empty file, and must not switch off access control.
   if (desc.token != nullptr && *desc.token == '\0') return wrong("desc.token is empty: use NULL to require no token");
   settings.access.token = textOr(desc.token, "");
   if (desc.host_name_count > 0 && desc.host_names == nullptr)

@@ -13,14 +13,14 @@
 namespace sgm::service {
 namespace {
 
-/// Age from which a world's sample counts as stale. Worlds of an idle engine are sampled too, so their samples do not
-/// age.
+/// Age from which a world's sample counts as stale. An idle world is still sampled regularly, so its sample stays
+/// fresh.
 constexpr std::chrono::seconds kStale{10};
-/// Limits of the work port's connections. A connection needs up to two files: its socket and its upload. With the
-/// connections that are turned away, and those of the operations port, at least half of the process's files remain for
-/// the engine.
+/// Limits of the work port's number of connections: a maximum, and the divisor of the process's limit of open files. A
+/// connection needs up to two files, its socket and its upload. With rejected connections and the operations port, at
+/// least half of the process's files remain for the engine.
 constexpr uint32_t kWorkConnections = 2048, kWorkShare = 5;
-/// Limits of the operations port, which has few clients.
+/// The same limits for the operations port, which has few clients.
 constexpr uint32_t kOperationsConnections = 64, kOperationsShare = 16;
 
 http::ServerSettings serverSettings(const ServiceSettings& settings, uint16_t port, const char* thread_name) {
@@ -32,7 +32,7 @@ http::ServerSettings serverSettings(const ServiceSettings& settings, uint16_t po
   return server;
 }
 
-/// The member "detail" of a problem in JSON.
+/// The text of the member "detail" of a problem (RFC 9457).
 std::string detailOf(const MastersAnswer& said) {
   const auto problem = nlohmann::json::parse(said.json == nullptr ? "" : *said.json, nullptr, false);
   const bool told = problem.is_object() && problem.contains("detail") && problem["detail"].is_string();
@@ -41,14 +41,14 @@ std::string detailOf(const MastersAnswer& said) {
 
 }  // namespace
 
-/// The parts of the service, in the order of their dependencies: members are destroyed in reverse order.
+/// The parts of the service. Each depends only on members above it, since members are destroyed in reverse order.
 struct Service::Parts {
   ServiceSettings settings;
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   Access access;
   Reports reports;
   std::unique_ptr<WatchedWorlds> worlds;
-  /// Set once both servers exist. Until then they are null, since handlers may be called from the first request on.
+  /// The servers, for their counts. Null until both have started; handlers may already be called before that.
   std::atomic<const http::Server*> work_server{nullptr}, operations_server{nullptr};
   std::unique_ptr<Masters> masters;
   std::unique_ptr<Inspector> inspector;
@@ -58,8 +58,8 @@ struct Service::Parts {
 
   Parts(const ServiceSettings& with, Access allowed) : settings(with), access(std::move(allowed)) {}
   ~Parts() {
-    // Each server's handler uses the other server and the inspector, and the inspector's threads call back into
-    // handlers: stop both servers before destroying anything.
+    // Stop both servers before destroying anything: each server's handler uses the other server and the inspector,
+    // whose threads call back into the handlers.
     for (const auto& server : {work_owner.get(), operations_owner.get()})
       if (server != nullptr) server->stop(std::chrono::milliseconds(0));
     inspector.reset();
@@ -87,8 +87,7 @@ struct Service::Parts {
     const Result<void> takes = inspector->wouldTake();
     const bool full = !takes && takes.error().code == Code::limit;
     all.push_back({"validator", takes || full, false, takes ? "accepts uploads" : takes.error().message});
-    // Start reading the reference histograms again, so that the next check shows if the database has been damaged or
-    // repaired since.
+    // Read the reference histograms again, so that the next check shows whether the file has been damaged or repaired.
     masters->read([](const MastersAnswer&) {});
     const MastersAnswer said = masters->last();
     if (said.status != 0)

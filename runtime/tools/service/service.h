@@ -1,5 +1,5 @@
 #pragma once
-// The whole metrics service: two HTTP ports, watched worlds, inspected uploads.
+// The metrics service: two HTTP ports, the worlds that it watches, and the inspection of uploads.
 
 #include <chrono>
 #include <memory>
@@ -17,15 +17,15 @@ namespace sgm::service {
 
 struct ServiceSettings {
   AccessSettings access;
-  uint16_t work_port = 0, operations_port = 0;  ///< 0: any free port
+  uint16_t work_port = 0, operations_port = 0;  ///< ports to listen on; 0: any free port
   InspectorSettings inspector;
   WorkSettings work;
 };
 
-/// Thread-safe, except the destructor.
+/// The metrics service. All functions but the destructor are thread-safe.
 class Service {
  public:
-  /// Listens from now on. Errors: those of Access, Inspector, WatchedWorlds and Server.
+  /// Starts to listen. Errors: those of Access, Inspector, WatchedWorlds and Server.
   static Result<std::unique_ptr<Service>> start(const ServiceSettings& settings);
   /// Same as stop(0).
   ~Service();
@@ -33,7 +33,7 @@ class Service {
   uint16_t workPort() const;
   uint16_t operationsPort() const;
   WatchedWorlds& worlds();
-  /// Accepts no more requests, waits at most `grace` for the answers to current requests, and ends. Blocks.
+  /// Accepts no more requests, waits up to `grace` until the current requests are answered, and ends. Blocks.
   void stop(std::chrono::milliseconds grace);
 
  private:

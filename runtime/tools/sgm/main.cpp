@@ -13,8 +13,8 @@ namespace {
 
 using sgm::cli::Exit;
 
-/// Ends the process by the signal, as if it were not handled (a shell then reports 128 + the signal), but first removes
-/// unfinished files. Defers the signal while work must not be interrupted.
+/// Signal handler. Removes unfinished files, then ends the process by the same signal, so that a shell reports 128 +
+/// the signal. Defers this while work must not be interrupted.
 void endBy(int signal) {
   if (sgm::cli::ending_signals.waits(signal)) return;
   sgm::cli::unfinished_files.remove();
@@ -23,12 +23,13 @@ void endBy(int signal) {
 }
 
 void handleSignals() {
-  // With SIGXFSZ ignored, exceeding the file size limit is a failed write, after which the writer removes its file.
+  // Ignore SIGXFSZ: exceeding the file size limit then fails the write, and the writer removes its file.
   std::signal(SIGXFSZ, SIG_IGN);
-  // If the caller ignores it, the system would forget how child processes end.
+  // If the parent process ignores SIGCHLD, so would this one, and the system would discard the exit status of child
+  // processes.
   std::signal(SIGCHLD, SIG_DFL);
   for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM}) {
-    // Signals that the caller ignores (nohup, a background job of a script) stay ignored.
+    // Signals that the parent process ignores (nohup, a background job of a script) stay ignored.
     if (std::signal(signal, endBy) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
 }
@@ -45,7 +46,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& e) {
     sgm::cli::reportError(Exit::input, e.what());
   }
-  // Output may have been lost, for example on a full disk to which it is redirected.
+  // Report lost output, for example if standard output is a file on a full disk.
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
     status = sgm::cli::reportError(Exit::file, "cannot write to standard output");
   }

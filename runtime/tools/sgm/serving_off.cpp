@@ -1,4 +1,4 @@
-// Replaces the metrics service in a build without it (SGM_TOOLS=core).
+// Replaces the metrics service in a build without it (SGM_TOOLS=core): starting it is an error.
 
 #include "tools/support/serving.h"
 

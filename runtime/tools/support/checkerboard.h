@@ -1,5 +1,5 @@
 #pragma once
-// The checkerboard texture that shows how texture coordinates lie.
+// A checkerboard texture, which shows the layout of texture coordinates.
 
 #include <cstddef>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace sgm::cli {
 
-/// The bytes of a .png file with one tile of the texture: 2 x 2 squares, a red line along u and a green line along v.
+/// One tile of the texture as a PNG file: 2 x 2 squares, with a red line along u and a green line along v.
 Result<std::vector<std::byte>> checkerboardPng();
 
 }  // namespace sgm::cli

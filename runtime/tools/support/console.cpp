@@ -29,7 +29,7 @@ Exit exitOf(Code code) {
 }
 
 Exit reportError(Exit status, std::string_view message) {
-  // The escape sequence erases an unfinished progress bar.
+  // On a terminal, erase an unfinished progress bar first.
   const char* erase = isatty(STDERR_FILENO) == 1 ? "\r\x1b[K" : "";
   fmt::print(stderr, "{}sgm: {}: {}\n", erase, status == Exit::usage ? "usage" : "error", message);
   return status;
@@ -37,7 +37,7 @@ Exit reportError(Exit status, std::string_view message) {
 
 namespace {
 
-/// Seconds before a progress bar shows an estimate of the remaining time.
+/// Seconds until a progress bar shows an estimate of the remaining time.
 constexpr double kBeforeEstimates = 3;
 constexpr std::chrono::seconds kBetweenTicks{1};
 constexpr std::chrono::minutes kBetweenLines{1};
@@ -49,14 +49,14 @@ std::string clockText(uint64_t seconds) {
 }  // namespace
 
 ProgressBar::ProgressBar(std::string_view what) : what_(what), terminal_(isatty(STDERR_FILENO) == 1) {
-  // Block all signals in the bar's thread, so that the threads that existed before handle them.
+  // Block all signals in the new thread, so that they are handled by the threads that existed before.
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   try {
     ticker_ = std::thread([this] { tick(); });
   } catch (const std::system_error&) {
-    // The thread could not be started: only calls of show() redraw the bar.
+    // Without the thread, the bar is redrawn only when show() is called.
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }

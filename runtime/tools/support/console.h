@@ -1,5 +1,5 @@
 #pragma once
-// Error messages, progress bar and exit status of the command `sgm`.
+// Error messages, progress bar and exit status of the program `sgm`.
 
 #include <chrono>
 #include <condition_variable>
@@ -14,25 +14,25 @@
 
 namespace sgm::cli {
 
-/// Exit status of the command. Scripts depend on these numbers.
+/// Exit status of the program. The numbers are part of its interface, since scripts use them.
 enum class Exit : int {
   done = 0,
-  input = 1,    ///< the input is wrong
-  usage = 2,    ///< the command line is wrong
-  backend = 3,  ///< the requested backend or device does not exist here
+  input = 1,    ///< the input, such as a grammar, is invalid
+  usage = 2,    ///< the command line is invalid
+  backend = 3,  ///< the requested backend or device is not available
   file = 4,     ///< a file could not be read or written
 };
 
-/// The exit status for an error.
+/// The exit status for an error code.
 Exit exitOf(Code code);
 
-/// Prints "sgm: error: message" ("sgm: usage: message" for a wrong command line) as one line on stderr. Returns status.
+/// Prints one line to stderr: "sgm: error: message", or "sgm: usage: message" for Exit::usage. Returns `status`.
 Exit reportError(Exit status, std::string_view message);
 inline Exit reportError(const Error& error) { return reportError(exitOf(error.code), error.message); }
 
-/// Shows progress on stderr. On a terminal it is a bar, with an estimate of the remaining time for long work, which is
-/// erased at the end. Otherwise it is a line each minute, for logs. While the amount of work is unknown, the elapsed
-/// time is shown instead, each second or minute.
+/// Shows progress on stderr. On a terminal it is a bar, which is erased at the end; after some seconds it shows an
+/// estimate of the remaining time. If stderr is not a terminal, it is one line a minute, for logs. While the total
+/// amount of work is unknown, the elapsed time is shown instead.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string_view what);
@@ -40,7 +40,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Thread-safe. Redraws a few times a second at most.
+  /// Sets the amount of work done and its total. Thread-safe. Redraws the bar at most ten times a second.
   void show(uint64_t done, uint64_t total);
 
  private:
@@ -48,21 +48,21 @@ class ProgressBar {
 
   void tick();
   void draw(Clock::time_point now);
-  /// The remaining time as ", 0:12:30 left", or "" while there is no estimate.
+  /// The estimated remaining time as ", 0:12:30 left"; "" if there is no estimate yet.
   std::string left(Clock::time_point now) const;
 
   const std::string what_;
   const bool terminal_;
   const Clock::time_point begun_ = Clock::now();
-  std::mutex mutex_;  ///< protects the members below
+  std::mutex mutex_;  ///< guards all members below it
   std::condition_variable ended_;
-  uint64_t done_ = 0, total_ = 0;  ///< amounts of work; total_ is 0 while it is unknown
+  uint64_t done_ = 0, total_ = 0;  ///< amount of work done and in total; total_ is 0 while unknown
   bool drawn_ = false, over_ = false;
   Clock::time_point last_ = begun_;
   std::thread ticker_;
 };
 
-/// Measures the seconds since its construction.
+/// Measures the time in seconds since its construction.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }

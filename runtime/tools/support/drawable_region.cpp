@@ -13,7 +13,7 @@
 namespace sgm::cli {
 namespace {
 
-/// The error message if the region has no anchor with the wanted name, kind or tag.
+/// The error message if no anchor of the region has the name, kind or tag `wanted`. Suggests a similar one.
 std::string noAnchor(const Program& program, std::span<const Anchor> anchors, const std::string& wanted) {
   Suggestion suggestion(wanted);
   std::set<std::string> known;

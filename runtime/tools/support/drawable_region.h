@@ -1,5 +1,5 @@
 #pragma once
-// Checks that a region has the surface and the anchors that a picture of it needs.
+// Checks whether a picture of a region can be drawn: it needs a surface, and the anchor that --at names.
 
 #include <span>
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace sgm::cli {
 
-/// Checks that an anchor has the wanted name, kind or tag; an empty `wanted` accepts everything. Error:
-/// invalid_argument if there is none.
+/// Checks that at least one anchor has the name, kind or tag `wanted`. An empty `wanted` is always accepted. Error:
+/// invalid_argument.
 Result<void> checkAnchor(const Program& program, std::span<const Anchor> anchors, const std::string& wanted);
 
-/// Error: invalid_argument if the region has no surface, or lacks the anchor that --at names.
+/// Error: invalid_argument if the region has no surface, or no anchor with the name, kind or tag in --at.
 Result<void> checkDrawable(const RenderOptions& options, const Region& region);
 
 }  // namespace sgm::cli

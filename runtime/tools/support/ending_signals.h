@@ -1,5 +1,5 @@
 #pragma once
-// Defers signals that end the process during work that they must not interrupt.
+// Defers signals that end the process while work is done that they must not interrupt.
 
 #include <unistd.h>
 
@@ -10,14 +10,14 @@
 
 namespace sgm::cli {
 
-/// Defers signals that would end the process while critical work is done. Blocking the signals is not enough: a signal
-/// mask applies to one thread only, and the system would deliver the signal to another. Works only if the signal
+/// Defers signals that would end the process while critical work is done. Blocking the signals would not suffice: a
+/// signal mask applies to a single thread, and the system would deliver the signal to another. Requires that the signal
 /// handler calls waits(). Thread-safe.
 class EndingSignals {
  public:
-  /// Must be called by the signal handler before it ends the process. Returns whether the signal is deferred; if so,
-  /// the handler must return, and the signal is raised again when the critical work is done. Neither locks nor
-  /// allocates.
+  /// Must be called by the signal handler before it ends the process. If it returns true, the signal is deferred: the
+  /// handler must return, and the signal is raised again when the critical work is done. Async-signal-safe: neither
+  /// locks nor allocates.
   bool waits(int signal) noexcept {
     int state = kOpen;
     while (!state_.compare_exchange_weak(state, state == kOpen ? kEnding : state == kHeld ? signal : state)) {
@@ -27,20 +27,21 @@ class EndingSignals {
 
  private:
   friend class Uninterrupted;
-  // Values of state_; a positive value is the number of the deferred signal.
+  // Values of state_: signals are not deferred, are deferred, or a handler is ending the process. A positive value is
+  // the number of a deferred signal.
   static constexpr int kOpen = 0, kHeld = -1, kEnding = -2;
 
   std::atomic<int> state_{kOpen};
 };
 
-/// Defers ending signals during its lifetime. signals: must outlive this object; null, with which nothing is deferred,
-/// if no signal handler calls signals->waits(). At most one Uninterrupted may exist for an EndingSignals.
+/// Defers signals that end the process, during its own lifetime. signals: must outlive this object; null to defer
+/// nothing, if no signal handler calls waits(). Only one Uninterrupted may exist at a time for each EndingSignals.
 class Uninterrupted {
  public:
   explicit Uninterrupted(EndingSignals* signals) : signals_(signals) {
     if (signals_ == nullptr) return;
     int open = EndingSignals::kOpen;
-    // The signal handler, in another thread, is about to end the process: wait for that end.
+    // The signal handler is ending the process in another thread: wait until it has.
     if (!signals_->state_.compare_exchange_strong(open, EndingSignals::kHeld))
       for (;;) pause();
   }
@@ -56,8 +57,8 @@ class Uninterrupted {
   EndingSignals* signals_;
 };
 
-/// Global variables, because a signal handler cannot reach anything else: the files that it removes, and the work that
-/// it must not interrupt.
+/// Global, because a signal handler can reach only global variables. unfinished_files: the files that the handler
+/// removes. ending_signals: tells the handler whether a signal must be deferred.
 extern UnfinishedFiles unfinished_files;
 extern EndingSignals ending_signals;
 

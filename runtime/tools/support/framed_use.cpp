@@ -15,12 +15,12 @@
 namespace sgm::cli {
 namespace {
 
-// Cells, maximum distance of a triangle from the surface of the use to which it belongs.
+// Maximum distance, in cells, of a triangle from the surface of the rule use to which it belongs.
 constexpr float kNearOwnSurface = 0.3f;
-constexpr size_t kMaxTargets = 12;      // maximum number of uses that are examined
-constexpr size_t kFewestTriangles = 6;  // minimum number of triangles with which a use is recognizable in a picture
+constexpr size_t kMaxTargets = 12;      // maximum number of rule uses that are examined
+constexpr size_t kFewestTriangles = 6;  // minimum number of triangles for a use to be recognizable in a picture
 
-/// The drawn mesh of a region, and the conversion of its places to the world.
+/// The drawn mesh of a region. Converts between positions in the mesh, in metres, and in the world, in units.
 struct DrawnRegion {
   const Region& region;
   std::span<const RenderVertex> vertices;
@@ -30,7 +30,7 @@ struct DrawnRegion {
   glm::vec3 middle(size_t triangle) const {
     return (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0f;
   }
-  /// The triangle's normal, which points to the void; not a unit vector.
+  /// Normal of a triangle, pointing into the void; not unit length.
   glm::vec3 facing(size_t triangle) const {
     return glm::cross(corner(triangle, 1) - corner(triangle, 0), corner(triangle, 2) - corner(triangle, 0));
   }
@@ -49,11 +49,11 @@ struct DrawnRegion {
   }
 };
 
-/// A use, and the part of the mesh that shows it.
+/// A use of a rule, and the triangles that show it.
 struct ShownUse {
   const RuleUse* use = nullptr;
   FrameTarget target;
-  bool hollow = false;  ///< the use's surface encloses a void
+  bool hollow = false;  ///< true if the use's surface encloses a void, as that of a room does
 };
 
 std::vector<uint32_t> trianglesIn(const DrawnRegion& drawn, const IntBox& bounds) {
@@ -67,18 +67,19 @@ std::vector<uint32_t> trianglesIn(const DrawnRegion& drawn, const IntBox& bounds
   return triangles;
 }
 
-/// The triangles of the mesh that show a use.
+/// The triangles of the mesh that show a use of a rule.
 struct OwnSurface {
   std::vector<uint32_t> triangles;
-  bool hollow = false;  ///< the void lies within the use's shapes, not outside
+  bool hollow = false;  ///< true if the void is inside the use's shapes, false if it is outside them
 };
 
-/// Selects the triangles that lie on the use's own surface, within a fraction of a cell. If hardly any triangle does,
-/// an enclosing rule has displaced the surface; then all triangles are selected.
+/// Selects the triangles that lie on the use's own surface, within a fraction of a cell. If there are hardly any, an
+/// enclosing rule has displaced the surface: then all given triangles are selected.
 Result<OwnSurface> ownOf(const DrawnRegion& drawn, const RuleUse& use, int level,
                          const std::vector<uint32_t>& triangles) {
   const float cell = static_cast<float>(metres(drawn.region.cell));
-  std::vector<Int3> points;  // three points for each triangle: on it, on its void side, and on its solid side
+  std::vector<Int3> points;  // three points for each triangle: its centre, and a point on its void side and on its
+                             // solid side
   IntBox box;
   for (const uint32_t triangle : triangles) {
     const glm::vec3 facing = drawn.facing(triangle), middle = drawn.middle(triangle);
@@ -121,8 +122,8 @@ Result<std::optional<ShownUse>> showUse(const DrawnRegion& drawn, const RuleUse&
   return std::optional(std::move(shown));
 }
 
-/// The uses to examine: those that lie entirely in the region, if there are any; large uses in the region's middle
-/// first.
+/// The uses in the order of examination: large uses in the middle of the region first. Uses that are only partly in the
+/// region are omitted, unless all are.
 std::vector<const RuleUse*> inOrder(const std::vector<RuleUse>& uses, const IntBox& extent, int32_t cell) {
   std::vector<const RuleUse*> whole;
   for (const RuleUse& use : uses)
@@ -223,7 +224,7 @@ Result<View> frameUse(const RenderOptions& options, const Region& region, std::s
   request.width = size.width;
   request.height = size.height;
   request.fov_degrees = static_cast<float>(options.fov);
-  // If the field cannot be evaluated at a place, the place counts as rock.
+  // A place at which the field cannot be evaluated counts as solid.
   const Result<std::optional<FramedView>> framing = frameTargets(vertices, indices, targets, request, [&](glm::vec3 p) {
     const Int3 at = drawn.units(p);
     const Result<std::vector<float>> value = survey::valuesAt(*region.world, region.level, {at, at}, {&at, 1});

@@ -1,5 +1,5 @@
 #pragma once
-// `sgm render --frame`: chooses the region and the camera that show a use of a rule.
+// Implements `sgm render --frame`: chooses the region and the camera so that the picture shows a use of a rule.
 
 #include <optional>
 #include <span>
@@ -11,25 +11,26 @@
 
 namespace sgm::cli {
 
-/// The use of a rule that a picture shows.
+/// A use of a rule, as a picture shows it.
 struct FramedUse {
   std::string path;
-  IntBox bounds;  ///< bounds of the use's shapes, units
-  /// Whether the use is a hollow that encloses the camera; otherwise `seen` and `fill` are valid:
+  IntBox bounds;  ///< bounding box of the use's shapes, units
+  /// Whether the camera is inside the use, which is then a hollow. If so, `seen` and `fill` are 1.
   bool inside = false;
-  double seen = 0;  ///< share of the use's surfaces facing the camera that nothing hides
-  double fill = 0;  ///< share of the picture's height or width that the use fills
+  double seen = 0;  ///< share of the use's surfaces that face the camera and are not hidden
+  double fill = 0;  ///< share of the picture's width or height that the use takes up
 };
 
 Json toJson(const FramedUse& use);
 std::string textOf(const FramedUse& use);
 
-/// Extends the plan: an unknown rule is rejected, and the region is chosen around the use nearest to the origin. The
-/// options must outlive the plan.
+/// Changes the plan so that an unknown rule is rejected, and the region surrounds the use of the rule nearest to the
+/// origin. Contract: the options outlive the plan.
 void planFrame(const RenderOptions& options, RegionPlan& plan);
 
-/// The view of the use that is most visible. Contract: the region was meshed with the plan of planFrame(). Errors:
-/// invalid_argument if the region contains no use, or no visible use; errors of derivation.
+/// The view in which a use of the rule is most visible; sets `framed` to that use. Contract: the region was meshed with
+/// the plan of planFrame(). Errors: invalid_argument if the region contains no use, or no visible one; those of
+/// derivation.
 Result<View> frameUse(const RenderOptions& options, const Region& region, std::span<const RenderVertex> vertices,
                       std::span<const uint32_t> indices, std::optional<FramedUse>& framed);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The appearance of a grammar's materials, in files and in pictures.
+// The appearance of a grammar's materials, for pictures and exported files.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace sgm::cli {
 
-/// One material for each of Program::materials; at least one. The first material, which has no name, is plain rock.
+/// The appearance of each of Program::materials; at least one. The first one has no name and looks like plain rock.
 std::vector<RenderMaterial> renderMaterials(const Program& program);
 std::vector<ExportMaterial> exportMaterials(const Program& program);
 

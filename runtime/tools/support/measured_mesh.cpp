@@ -20,7 +20,7 @@ void append(std::string& bytes, const std::vector<T>& values) {
   if (!values.empty()) bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
-/// Moves values from the front of the bytes into `values`. Returns false if there are too few bytes.
+/// Copies values from the front of `bytes`, and removes these bytes. Returns false if there are too few bytes.
 template <class T>
 bool take(std::string_view& bytes, std::vector<T>& values) {
   const size_t size = values.size() * sizeof(T);
@@ -39,7 +39,7 @@ bool isGrammarFile(const std::string& path) {
 }
 
 Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, std::optional<asset::MeshFileKind> kind) {
-  // The numbers of points and triangles are not limited: only the memory of the process limits a file's contents.
+  // No limit for points and triangles: the file is limited only by the memory of the process.
   asset::MeshLimits limits;
   limits.points = limits.triangles = std::numeric_limits<uint32_t>::max();
   limits.farthest = 1e12;
@@ -49,10 +49,10 @@ Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, std:
 }
 
 Result<asset::TriangleMesh> readMeshFile(const std::string& file) {
-  // Pipes are refused, because reading them might block.
+  // readFile() rejects pipes, because reading one might block.
   const Result<std::string> bytes = readFile(file, UINT64_MAX);
   if (!bytes) return bytes.error();
-  // If the file's name does not tell its format, the bytes may.
+  // If the file name does not tell the format, readMesh() detects it from the content.
   const Result<asset::MeshFileKind> named = asset::meshFileKind(std::string_view(file));
   Result<asset::TriangleMesh> mesh =
       readMeshBytes(std::as_bytes(std::span(*bytes)), named ? std::optional(*named) : std::nullopt);
@@ -75,7 +75,7 @@ Result<std::string> meshFileAnswer(const std::string& file) {
 Result<asset::TriangleMesh> askSandboxForMesh(const std::string& file, const SandboxOptions& options) {
   const Result<std::string> said = askSandbox(options);
   if (!said) return said.error();
-  // The process may be compromised, so its lengths are checked against the bytes received.
+  // The file may have compromised the process, so check the lengths in its answer against the number of bytes.
   std::string_view left = *said;
   std::vector<uint64_t> counts(2);
   std::vector<asset::Point> origin(1);

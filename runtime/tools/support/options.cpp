@@ -19,7 +19,7 @@ constexpr double kDefaultCell = 0.5;
 
 Error wrong(std::string message) { return {Code::invalid_argument, std::move(message), 0, 0}; }
 
-/// Converts metres to the nearest unit. Error if the result is outside the world.
+/// Converts metres to the nearest unit. Error if that is outside the world.
 Result<int32_t> unitsOf(double metres) {
   const double units = std::floor(metres * kUnitsPerMetre + 0.5);
   if (!(units >= std::numeric_limits<int32_t>::min() && units <= std::numeric_limits<int32_t>::max()))

@@ -20,19 +20,20 @@ namespace {
 
 constexpr size_t kMaxNotes = 10;
 constexpr const char* kEndless = "the grammar's world is endless: choose a part with --region x0,y0,z0:x1,y1,z1";
-constexpr uint64_t kChosenChunks = 4096;  // maximum number of chunks of a region that the user has not chosen
-constexpr int32_t kFinestSeen = kUnitsPerMetre / 100;  // the smallest cells that a view may request, units
-// Minimum distance from the camera, in units, for which a view sets cell sizes: nearer surfaces may look coarser.
+constexpr uint64_t kChosenChunks = 4096;  // maximum number of chunks if cell size and region are chosen automatically
+constexpr int32_t kFinestSeen = kUnitsPerMetre / 100;  // units, minimum cell size that a view may request
+// Minimum distance from the camera, in units, at which the view determines the cell size. Nearer surfaces may look
+// coarser.
 constexpr double kNearestSeen = kUnitsPerMetre;
 
 RegionResult failure(Exit status) { return {std::nullopt, status}; }
 
 struct ChosenWorld {
   WorldFieldSettings settings;
-  std::optional<IntBox> region;  ///< nullopt in an endless world for which the plan chooses the region
+  std::optional<IntBox> region;  ///< the region to mesh; nullopt if RegionPlan::choose still has to choose it
 };
 
-/// The world settings and the region that the options give for a compiled grammar.
+/// The settings of the world and the region, as far as the options determine them.
 Result<ChosenWorld> chooseWorld(const std::shared_ptr<const Program>& program, const WorldOptions& options,
                                 const RegionPlan& plan) {
   ChosenWorld chosen;
@@ -58,8 +59,8 @@ Result<ChosenWorld> chooseWorld(const std::shared_ptr<const Program>& program, c
   return chosen;
 }
 
-/// If the options give no region, lets the plan choose it. If they also give no cell size, chooses one that fits the
-/// region.
+/// If the options determine no region, calls plan.choose. If they also determine no cell size, asks plan.cell, or else
+/// chooses a size that fits the region.
 Result<void> settleRegion(ChosenWorld& chosen, const WorldOptions& options, const RegionPlan& plan) {
   if (chosen.region) return {};
   const Result<IntBox> region = plan.choose(WorldField(chosen.settings, std::pmr::new_delete_resource()));
@@ -76,7 +77,7 @@ Result<void> settleRegion(ChosenWorld& chosen, const WorldOptions& options, cons
   return {};
 }
 
-/// Loads the grammar after all checks that need only the command line. Errors have been printed when it returns.
+/// Checks all options that do not depend on the grammar, then loads it. Errors are printed; `program` is then null.
 LoadedGrammar loadForWorld(const WorldOptions& options, const RegionPlan& plan) {
   const auto refused = [](Exit status) {
     LoadedGrammar none;
@@ -105,7 +106,7 @@ sgm_backend backendNamed(const std::string& name) {
 }
 
 std::string pipelineFolder() {
-  // Relative paths in these variables must be ignored (XDG Base Directory Specification).
+  // A relative path in one of these variables must be ignored (XDG Base Directory Specification).
   const auto absolute = [](const char* variable) {
     const char* text = std::getenv(variable);
     return text != nullptr && *text == '/' ? std::string(text) : std::string();
@@ -140,7 +141,7 @@ void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) 
   }
 }
 
-/// Prints a note about cells in which --sharp left edges rounded.
+/// Prints a note if --sharp had to leave edges rounded. rounded: number of cells with rounded edges.
 void noteRounded(const std::string& file, uint64_t rounded) {
   if (rounded == 0) return;
   fmt::print(stderr, "{}: note: {} rounded edges, since sharp ones would fold or cut the surface there\n", file,
@@ -335,7 +336,7 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   warnOfNotes(options.file, made->notes);
   noteRounded(options.file, made->meshed.rounded);
   warnOfThinWalls(options.file, *grammar.program, made->cell);
-  // If the mesh is empty, the caller prints the reason.
+  // If the mesh is empty, the caller explains why.
   if (!made->meshed.mesh.indices.empty()) sayThinParts(made->thin, made->cell);
   return {std::move(*made), Exit::done};
 }

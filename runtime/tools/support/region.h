@@ -1,5 +1,5 @@
 #pragma once
-// A region of a grammar's world, meshed and welded, for `mesh` and `render`.
+// Meshes a region of a grammar's world and joins its chunks, for commands such as `mesh` and `render`.
 
 #include <functional>
 #include <memory>
@@ -21,97 +21,101 @@ namespace sgm::cli {
 struct Region {
   std::shared_ptr<const Program> program;
   RegionMesh meshed;
-  int32_t cell = 0;  ///< edge of the grid cells, units; if a view has chosen several levels, that of the coarsest level
-  int level = 0;     ///< level of detail, in the world to which these cells belong
+  /// Edge of the grid cells, units; if a view has chosen cells of several sizes, the edge of the coarsest.
+  int32_t cell = 0;
+  int level = 0;                ///< level of detail that has been meshed
   std::vector<Anchor> anchors;  ///< all anchors in the region
   std::string backend, device;
-  double seconds = 0;                     ///< wall time from the compiled grammar to the welded mesh
-  std::optional<TexturedRegion> texture;  ///< set if the plan requests a texture
-  std::optional<Unwrapped> blends;        ///< set if the plan requests blends of materials, but no texture
-  /// With sharp features: the closed mesh. In meshed.mesh, each vertex on a crease is split into one for each side.
+  double seconds = 0;                     ///< wall-clock time from the compiled grammar to the finished mesh
+  std::optional<TexturedRegion> texture;  ///< set if RegionPlan::texture is true
+  std::optional<Unwrapped> blends;        ///< set if only RegionPlan::blends is true
+  /// Set with sharp features: the closed mesh. In meshed.mesh, a vertex on a crease is split, with one copy for each
+  /// side.
   std::optional<WorldMesh> unsplit;
-  std::string empty_because;                ///< if the mesh has no triangle: a possible reason and the remedy
-  std::vector<DeriveNote> notes;            ///< elements that derivation left out, and why
-  std::vector<ThinPart> thin;               ///< parts that the mesh may miss
-  std::shared_ptr<const WorldField> world;  ///< the mesh's world, if the plan requests to keep it
+  std::string empty_because;                ///< if the mesh has no triangle: a probable reason and a remedy
+  std::vector<DeriveNote> notes;            ///< shapes that derivation left out, and why
+  std::vector<ThinPart> thin;               ///< parts too thin for the cells, which the mesh may lack
+  std::shared_ptr<const WorldField> world;  ///< the meshed world, if RegionPlan::keep_world is true
 
   uint64_t samples() const { return meshed.chunks * kChunkCells * kChunkCells * kChunkCells; }
 };
 
-inline constexpr size_t kCacheBytes = size_t{512} << 20;  ///< limit of the cache of derived cells
+inline constexpr size_t kCacheBytes = size_t{512} << 20;  ///< limit of the cache of derived cells, bytes
 
-/// This user's folder of compiled pipelines, for sgm_runtime_desc.pipeline_folder: sgm/pipelines in $XDG_CACHE_HOME or
-/// ~/.cache. Empty if the environment names neither folder.
+/// The user's directory for compiled pipelines, for sgm_runtime_desc.pipeline_folder: sgm/pipelines in $XDG_CACHE_HOME
+/// or in ~/.cache. Empty if neither XDG_CACHE_HOME nor HOME is an absolute path.
 std::string pipelineFolder();
 
-/// Opens the backend that --backend names. jobs must outlive it. Error: unsupported.
+/// Opens the backend given by --backend. Contract: jobs outlives the backend. Error: unsupported.
 Result<std::unique_ptr<Backend>> backendOf(const WorldOptions& options, JobSystem& jobs);
 
-/// The backend with a name that --backend accepts.
+/// The backend for a value of --backend; SGM_BACKEND_AUTO for an unknown name.
 sgm_backend backendNamed(const std::string& name);
 
-/// Prints to stderr which elements derivation left out, each message once for each place in the grammar.
+/// Prints to stderr which shapes derivation left out: each message once for each place in the grammar.
 void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes);
 
-/// Rejects a region with more chunks than --max-chunks allows, and suggests a larger --cell with which it fits.
+/// Error: limit if the region has more chunks than --max-chunks allows. The message suggests a larger --cell that fits.
 Result<void> checkChunks(const WorldOptions& options, const IntBox& region, int32_t finest_cell);
 
-/// Whether the region's border cuts the surface, so that the surface continues beyond it.
+/// Whether the mesh reaches the region's border, where the border may cut the surface.
 bool isCut(const Region& region);
 
-/// The members of --json that all commands print for a region.
+/// The JSON members that all commands print for a region with --json.
 Json toJson(const WorldOptions& options, const Region& region);
 
-/// If `region` is empty, an error message has been printed, and `status` is the exit status.
+/// A meshed region; or, after an error, nullopt and the exit status. The error message has been printed.
 struct RegionResult {
   std::optional<Region> region;
   Exit status = Exit::done;
 };
 
-/// Settings and callbacks with which a command controls the meshing of a region; each may be empty.
+/// Settings and callbacks that control how a region is chosen and meshed. Callbacks may be empty.
 struct RegionPlan {
-  std::string doing = "meshing";  ///< text beside the progress bar
-  bool quiet = false;             ///< shows no progress bar
-  bool anchors = true;            ///< collects the region's anchors, for which the whole region must be derived
-  bool notes = true;              ///< collects Region::notes and Region::thin, which takes time
-  /// Called from any thread during the work; false cancels it with Code::cancelled. May be empty.
+  std::string doing = "meshing";  ///< text in front of the progress bar
+  bool quiet = false;             ///< whether no progress bar is shown
+  bool anchors = true;            ///< whether Region::anchors is filled, which derives the whole region
+  bool notes = true;              ///< whether Region::notes and Region::thin are filled, which takes time
+  /// Called on any thread during the work; if it returns false, the work is cancelled with Code::cancelled. May be
+  /// empty.
   std::function<bool()> go_on;
-  bool texture = false;     ///< makes texture coordinates and blends of materials
-  bool blends = false;      ///< makes blends of materials without texture coordinates
-  bool keep_world = false;  ///< keeps the world and its cache in Region::world, for later queries
-  /// Called before any work; returns an error to reject a grammar.
+  bool texture = false;     ///< whether texture coordinates and blends of materials are made
+  bool blends = false;      ///< whether blends of materials are made, without texture coordinates
+  bool keep_world = false;  ///< whether Region::world keeps the world and its cache for later queries
+  /// Called before any other work; rejects a grammar by returning an error.
   std::function<Result<void>(const Program& program)> check;
-  /// Chooses the region in an endless world if there is no --region.
+  /// Chooses the region if there is no --region and the world is endless (or `part` is true).
   std::function<Result<IntBox>(const WorldField& world)> choose;
-  bool part = false;  ///< `choose` also chooses a part of a finite world, which otherwise is meshed as a whole
-  /// If set, cells are made smaller than requested where they would appear too large in this view.
+  bool part = false;  ///< whether `choose` is also called for a finite world, which would otherwise be meshed
+                      ///< completely
+  /// If set, cells are made smaller where they would look too large in this view.
   std::optional<PictureView> view;
-  /// Returns the cell edge, units, for the region that `choose` has chosen, if the options do not give it. Empty, or a
-  /// result of 0: the size of the region determines the cells.
+  /// Called after `choose`, unless the options determine the cell size: returns the edge of a cell in units. If this
+  /// callback is empty or returns 0, the size of the region determines the cell size.
   std::function<int32_t()> cell;
-  /// Called once the region is meshed, for further work on the world.
+  /// Called when the region has been meshed, to do more with its world.
   std::function<Result<void>(const WorldField& world, Backend& backend, JobSystem& jobs, const Region& region)> after;
 };
 
-/// The world of a grammar and a region of it, as the options give them, before any meshing.
+/// A grammar's world and a region of it, as the options determine them. Nothing is meshed yet.
 struct OpenedWorld {
-  std::shared_ptr<const Program> program;  ///< null after an error, whose message has been printed
-  Exit status = Exit::done;                ///< the exit status after an error
+  std::shared_ptr<const Program> program;  ///< null after an error; its message has been printed
+  Exit status = Exit::done;                ///< exit status after an error
   WorldFieldSettings settings;
-  IntBox region;  ///< the region of --region, otherwise all of a finite world
+  IntBox region;  ///< the region from --region, from the plan, or all of a finite world
 };
 
-/// Opens a world. An endless world needs a --region, or a plan that chooses a region. Messages go to stderr.
+/// Opens a world. An endless world requires --region or RegionPlan::choose. Prints errors to stderr.
 OpenedWorld openWorld(const WorldOptions& options, const RegionPlan& plan = {});
 
-/// Meshes a region of a compiled grammar. The region is chosen as in meshRegion(). Shows a progress bar if stderr is a
-/// terminal, but prints no messages. Errors: invalid_argument for wrong options; those of meshing, and of the plan's
+/// Meshes a region of a compiled grammar; the region is chosen as in meshRegion(). Shows a progress bar if stderr is a
+/// terminal, but prints no messages. Errors: invalid_argument for invalid options; those of meshing and of the plan's
 /// callbacks.
 Result<Region> meshProgram(std::shared_ptr<const Program> program, const WorldOptions& options, const RegionPlan& plan);
 
-/// Reads, compiles and meshes the grammar of the options. The region is that of --region; otherwise all of a finite
-/// world, or the plan's choice in an endless one (without a choice, an error). If there is no --cell, the size of the
-/// region determines the cells. Messages go to stderr, and a progress bar if stderr is a terminal.
+/// Reads and compiles the grammar that the options name, and meshes a region. The region is that of --region, otherwise
+/// all of a finite world, or the result of RegionPlan::choose; if none of these is given, that is an error. Without
+/// --cell or --ld, a chosen region determines the cell size. Prints messages to stderr, and shows a progress bar.
 RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan = {});
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// Samples the density of a meshed region at the corners of its cells; `sgm render --volume` draws it.
+// Samples the density of a meshed region at the corners of its cells, for `sgm render --volume`.
 
 #include "query/density_grid.h"
 #include "tools/support/region.h"
@@ -13,10 +13,11 @@ struct RegionDensity {
   double seconds = 0;
 };
 
-/// Error: invalid_argument if the grammar's solid is not fog; the message names the statement to write.
+/// Error: invalid_argument if the grammar does not declare its solid as fog; the message names the missing statement.
 Result<void> checkDensity(const Program& program);
 
-/// Shows a progress bar if stderr is a terminal. Errors: as sampleDensity(), limit, out_of_memory.
+/// Samples the density in the region. Shows a progress bar if stderr is a terminal. Errors: those of sampleDensity(),
+/// limit, out_of_memory.
 Result<RegionDensity> sampleRegion(const WorldField& world, JobSystem& jobs, const Region& region, int level);
 
 Json toJson(const RegionDensity& density);

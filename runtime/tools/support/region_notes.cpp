@@ -19,8 +19,7 @@ int32_t thinnest(const IntBox& box) {
   return static_cast<int32_t>(edge);
 }
 
-/// Thickness of a treemap's walls in metres if the grammar gives it as a number; nullopt if it is computed by an
-/// expression.
+/// Thickness of a treemap's walls in metres; nullopt if the grammar computes it by an expression.
 std::optional<double> wallOf(const Program& program, const StmtNode& s) {
   const ExprId wall = program.ast.treemaps[s.extra].wall;
   if (wall == kNoId) return kTreemapWall;
@@ -28,7 +27,7 @@ std::optional<double> wallOf(const Program& program, const StmtNode& s) {
   return n.kind == ExprKind::number ? std::optional(n.value) : std::nullopt;
 }
 
-/// A length as text: "4 cm", "2.5 cm", "1.2 m".
+/// A length for users, such as "4 cm", "2.5 cm" or "1.2 m".
 std::string lengthText(int32_t units) {
   const double length = metres(units);
   return length < 1 ? fmt::format("{:.3g} cm", 100 * length) : fmt::format("{:.3g} m", length);

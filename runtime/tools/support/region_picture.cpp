@@ -30,7 +30,7 @@ std::vector<RenderVertex> drawable(const WorldMesh& mesh) {
   return vertices;
 }
 
-/// Adds the mesh as it is drawn. Vertices at borders between charts or pairs of materials are duplicated.
+/// Adds the mesh to the scene. Vertices at borders between texture charts or pairs of materials are duplicated.
 void addMesh(const Region& region, bool uv, RegionScene& drawn) {
   const std::vector<RenderVertex> vertices = drawable(region.meshed.mesh);
   const Unwrapped& seen = region.texture ? region.texture->unwrapped : *region.blends;
@@ -53,7 +53,7 @@ glm::vec3 fromOrigin(const WorldMesh& mesh, const std::array<double, 3>& world) 
   return point;
 }
 
-/// Whether a place is so near the region's border that the border would be visible around it.
+/// Whether a place is so near the region's border that a picture from there would show the border.
 bool isByBorder(const IntBox& extent, Int3 place) {
   for (int axis = 0; axis < 3; ++axis) {
     const int64_t margin = (int64_t{extent.hi[axis]} - extent.lo[axis]) / 8;
@@ -62,7 +62,7 @@ bool isByBorder(const IntBox& extent, Int3 place) {
   return false;
 }
 
-/// The view of the camera that the options give; otherwise an automatic view.
+/// The view from the camera that the options give, or from an automatically chosen one.
 Result<View> viewOf(const RenderOptions& options, const Region& region, const RegionScene& drawn) {
   const PictureSize size = *readSize(options.size);
   if (!options.camera.empty()) {
@@ -87,10 +87,10 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, const Re
   return chooseCamera(drawn.vertices, drawn.indices, request);
 }
 
-/// Lamps at the region's anchors of kind `light` that light visible places, sorted by distance from the camera.
+/// Lamps at the region's anchors of kind `light`: the nearest to the camera, but none far behind it.
 std::vector<RenderLamp> builtLamps(const Region& region, const RenderCamera& camera) {
-  constexpr float kReach = 1.5f;    // metres, reach of a lantern
-  constexpr float kBehind = -3.0f;  // metres: a lantern up to this far behind the camera lights visible places
+  constexpr float kReach = 1.5f;    // metres, RenderLamp::reach of a lamp
+  constexpr float kBehind = -3.0f;  // metres; a lamp is used if it is in front of the camera or at most this far behind
   const glm::vec3 colour(1.0f, 0.76f, 0.50f), forward = glm::normalize(camera.target - camera.position);
   std::vector<RenderLamp> lamps;
   for (const Anchor& anchor : region.anchors) {
@@ -105,14 +105,15 @@ std::vector<RenderLamp> builtLamps(const Region& region, const RenderCamera& cam
   return lamps;
 }
 
-/// Materials for wires: the surface has no pattern, which would hide the edges.
+/// Materials for --wires. The surface has no pattern, because a pattern would hide the edges.
 constexpr RenderMaterial kUnderWires{SurfacePattern::plain, {0.55f, 0.55f, 0.52f}, 0.9f, 0.0f};
 constexpr RenderMaterial kWire{SurfacePattern::plain, {0.01f, 0.02f, 0.05f}, 1.0f, 0.0f};
 
-/// Adds the mesh's edges as ribbons that face the camera and have a constant width in the picture.
+/// Adds the mesh's edges as ribbons that face the camera and have a constant width in pixels.
 void addWires(const Region& region, const RenderCamera& camera, RegionScene& drawn) {
-  constexpr float kWide = 0.55f, kLifted = 1.5f;  // pixels: half width, and displacement towards the camera
-  // Maximum share of a visible edge that a wire covers on each side, so that small triangles stay light.
+  constexpr float kWide = 0.55f, kLifted = 1.5f;  // pixels: half of a ribbon's width, and its offset towards the camera
+  // Maximum half width of a ribbon as a share of the edge's visible length, so that ribbons do not cover small
+  // triangles.
   constexpr float kShare = 0.035f;
   const WorldMesh& mesh = region.meshed.mesh;
   std::vector<std::array<uint32_t, 2>> edges;
@@ -134,7 +135,7 @@ void addWires(const Region& region, const RenderCamera& camera, RegionScene& dra
   for (const auto& [a, b] : edges) {
     const glm::vec3 ends[] = {place(a), place(b)};
     const glm::vec3 side = glm::cross(ends[1] - ends[0], camera.position - ends[0]);
-    if (glm::length(side) == 0) continue;  // the edge is seen end-on
+    if (glm::length(side) == 0) continue;  // the camera looks along the edge, which is not visible
     const float seen = glm::length(side) / glm::distance(camera.position, ends[0]);
     const auto first = static_cast<uint32_t>(drawn.vertices.size());
     for (const glm::vec3& end : ends) {
@@ -150,7 +151,7 @@ void addWires(const Region& region, const RenderCamera& camera, RegionScene& dra
   }
 }
 
-/// The region's world for measuring daylight; it includes what lies beyond the region's border.
+/// The world for measuring daylight. It includes parts beyond the region's border.
 LitWorld litWorld(const Region& region) {
   const Program& program = *region.program;
   LitWorld world = LitWorld::of(program.domain.solid, program.domain.infinite && program.domain.axes[1]);
@@ -184,8 +185,8 @@ Result<Outlook> lookOutFor(const Region& region, const View& view) {
 
 Result<Image> drawVolume(const Renderer& renderer, const RegionDensity& density, const Region& region,
                          const View& view) {
-  // Optical depth along the shortest path across an edge of the density: a third of the light crosses it, so edges of
-  // all sizes look soft.
+  // Optical depth along the shortest path across an edge of the fog. It lets a third of the light pass, so that edges
+  // of all sizes look soft.
   constexpr double kEdgeDepth = 1.1;
   const DensityGrid& grid = density.grid;
   VolumeScene scene;
@@ -195,7 +196,7 @@ Result<Image> drawVolume(const Renderer& renderer, const RegionDensity& density,
     scene.corner[axis] = static_cast<float>(metres(grid.origin[axis]) - metres(region.meshed.mesh.origin[axis]));
   }
   scene.spacing = static_cast<float>(metres(grid.spacing));
-  // The integral of the density across an edge is half the edge's width.
+  // Across an edge of the fog, the density rises from 0 to 1: its integral is half of the edge's width.
   scene.medium.extinction = static_cast<float>(2 * kEdgeDepth / (grid.edge / kUnitsPerMetre));
   scene.camera = view.camera;
   RenderScene lit;
@@ -295,14 +296,14 @@ Result<RegionScene> sceneOf(const RenderOptions& options, const Region& region) 
       if (!outlook) return outlook.error();
       if (!outlook->buried) drawn.daylight = outlook->daylight;
     }
-    // A camera in the rock sees the model cut open, which the sun lights.
+    // For a camera inside solid rock, no daylight is measured: use the sun, which lights the mesh from outside.
     drawn.light = wanted ? *wanted : drawn.daylight ? lightAt(*drawn.daylight) : Light::sun;
   }
   drawn.scene.vertices = drawn.vertices;
   drawn.scene.indices = drawn.indices;
   drawn.scene.materials = drawn.materials;
   drawn.scene.origin = region.meshed.mesh.origin;
-  // If the grammar has lamps, they replace the explorer's lamps, and the headlamp is dimmed.
+  // Lamps of the grammar replace the automatically placed lamps, and the headlamp becomes weaker.
   std::vector<RenderLamp> lamps = builtLamps(region, drawn.view.camera);
   const bool lit = !lamps.empty();
   if (lit) drawn.view.lamps = std::move(lamps);

@@ -14,15 +14,16 @@ struct RenderOptions : WorldOptions {
   std::string at;
   std::string size = "1280x720";
   double fov = 68;
-  /// Maximal size of a grid cell in the picture, in pixels; cells are made smaller to satisfy it.
+  /// Maximum size of a grid cell in the picture, in pixels. Cells are made smaller to meet it.
   std::optional<double> pixels;
-  std::string light = "auto";  ///< sun, lamp, none, or auto, which measures how much sky is visible
-  bool volume = false;         ///< draws the solid as fog instead of its surface
-  bool wires = false;          ///< also draws the mesh's edges, and no materials
-  std::string frame;           ///< a rule or a path of rule uses, one of which the camera shows; empty: none
-  std::string seeds;  ///< seeds of a contact sheet, in the form of readSeeds(); empty: one picture with the seed `seed`
-  bool plan = false;  ///< draws the plan of a survey instead of a picture
-  /// Draws a long section: "" chooses its line, otherwise the line in the form of survey::readCutLine().
+  std::string light = "auto";  ///< sun, lamp or none; auto: sun or lamp, depending on how much sky is visible
+  bool volume = false;         ///< whether the solid is drawn as fog instead of its surface
+  bool wires = false;          ///< whether the mesh's edges are drawn, on a surface without materials
+  std::string frame;           ///< rule, or path of rule uses; the camera shows one of its uses; empty: none
+  std::string seeds;           ///< seeds of a contact sheet, as for readSeeds(); empty: one picture
+  bool plan = false;           ///< whether a survey's plan is drawn instead of a picture
+  /// If set, a survey's section is drawn along this line, as for survey::readCutLine(). If empty, the line is chosen
+  /// automatically.
   std::optional<std::string> section;
 };
 

@@ -15,7 +15,7 @@ namespace {
 using platform::ProcessExit;
 using platform::ProcessOutput;
 
-/// First character of the answer; kFailed is followed by the error's code and message.
+/// First character of the answer. After kDone follows the result; after kFailed, the error's code and message.
 constexpr char kDone = 'd', kFailed = 'f';
 
 Error tooMuchMemory(const SandboxOptions& options) {
@@ -24,7 +24,8 @@ Error tooMuchMemory(const SandboxOptions& options) {
                       options.memory)};
 }
 
-/// The problem with the end of the process itself, if there is one.
+/// The error that follows from the way in which the process ended, such as a crash or a time limit; nullopt if it ended
+/// by itself and in time.
 std::optional<Error> problemOf(const ProcessOutput& said, const SandboxOptions& options) {
   switch (said.exit.kind) {
     case ProcessExit::Kind::out_of_time:
@@ -67,14 +68,14 @@ Result<std::string> askSandbox(const SandboxOptions& options) {
   platform::ProcessSettings settings;
   settings.program = *program;
   settings.arguments = options.words;
-  // Behind the command's name, since it would be a file's behind "--".
+  // Insert the option right after the command's name: after a "--", it would be taken for a file name.
   settings.arguments.insert(settings.arguments.begin() + 1, "--sandboxed");
   settings.output = {platform::Stream::pipe};
-  settings.inherits_files = true;  // the files may be named by their descriptors, as /dev/fd/5
+  settings.inherits_files = true;  // an argument may name an inherited file, as /dev/fd/5
   settings.sandbox.emplace().cpu_seconds = options.seconds;
   platform::RunSettings run;
   run.time = std::chrono::ceil<std::chrono::milliseconds>(std::chrono::duration<double>(options.seconds));
-  // Otherwise output that is still buffered would come behind the process's messages.
+  // Write buffered output now: otherwise it would appear after the messages of the process.
   std::fflush(nullptr);
   Result<ProcessOutput> said = platform::runProcess(settings, run);
   if (!said) return said.error();
@@ -93,7 +94,7 @@ Result<std::string> askSandbox(const SandboxOptions& options) {
 }
 
 Exit answerFromSandbox(const SandboxOptions& options, const std::function<Result<std::string>()>& work) {
-  // If the limit had held before, a process without memory for its libraries would have ended without an answer.
+  // The limit is set only now: if there were no memory for loading libraries, the process would end without an answer.
   platform::ProcessLimits limits;
   limits.memory_bytes = options.memory << 20;
   platform::limitThisProcess(limits);

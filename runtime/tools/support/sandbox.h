@@ -1,6 +1,6 @@
 #pragma once
-// Work on untrusted input in a sandboxed process: a crafted file cannot crash the caller, or exhaust memory or time of
-// the machine. The process runs the same command line, with one option more: --sandboxed.
+// Does work on untrusted input in a sandboxed process, so that a malicious file cannot crash the caller or exhaust the
+// machine's memory or time. The process runs the caller's command line with the additional option --sandboxed.
 
 #include <cstdint>
 #include <functional>
@@ -13,17 +13,19 @@
 namespace sgm::cli {
 
 struct SandboxOptions {
-  uint64_t memory = 4096;          ///< MB of address space (not enforced under a sanitizer, which maps more)
-  double seconds = 300;            ///< of processor time (sum of all threads, rounded up), and of wall time
-  bool sandboxed = false;          ///< this is the sandboxed process
+  uint64_t memory = 4096;          ///< limit of the address space in MB (not enforced under a sanitizer, which maps
+                                   ///< more)
+  double seconds = 300;            ///< limit of the CPU time of all threads (rounded up) and of the wall-clock time
+  bool sandboxed = false;          ///< whether the current process is the sandboxed one
   std::vector<std::string> words;  ///< the command line, without the program's name
 };
 
-/// Starts the sandboxed process and returns its answer. Errors: those of its work; limit if it exceeds a limit or is
-/// ended by a signal; io if it cannot be started or answers nothing. If the caller is ended, so is the process.
+/// Starts the sandboxed process and returns its answer. Errors: those of the work; limit if the process exceeds a limit
+/// or a signal ends it; io if it cannot be started or gives no answer. If the calling process ends, the sandboxed
+/// process ends too.
 Result<std::string> askSandbox(const SandboxOptions& options);
 
-/// In the sandboxed process: limits its memory, does the work, and answers askSandbox() on standard output.
+/// Called in the sandboxed process: limits its memory, does the work, and writes the answer for askSandbox() to stdout.
 Exit answerFromSandbox(const SandboxOptions& options, const std::function<Result<std::string>()>& work);
 
 }  // namespace sgm::cli

@@ -10,7 +10,8 @@
 namespace sgm::cli {
 namespace {
 
-/// Applies `make`, a function of the compiler, to the text of a file. Imports are searched in the file's folder.
+/// Reads a grammar file and passes its text to `make`, a function of the compiler. Imports are read from the file's
+/// directory.
 template <class Made>
 Result<Made> readAnd(Made (*make)(std::string_view, std::string_view, const CompileOptions&), const std::string& file) {
   Result<std::string> text = readGrammarText(file);

@@ -9,18 +9,18 @@
 
 namespace sgm::cli {
 
-/// Reads a text of at most the size that the compiler accepts. Errors: io, limit.
+/// Reads a grammar file, up to the size that the compiler accepts. Errors: io, limit.
 Result<std::string> readGrammarText(const std::string& file);
 
-/// Compiles a file; its imports are searched in its folder. Errors (io, limit) only if the file itself cannot be read:
-/// errors in the text are diagnostics of the result.
+/// Compiles a grammar file; its imports are read from its directory. Errors: io or limit if the file cannot be read.
+/// Errors in the grammar itself are in the diagnostics of the result.
 Result<CompileResult> compileFile(const std::string& file);
 
-/// As compileFile(), but also accepts a library, a file that has only rules for other files to import.
+/// Like compileFile(), but also accepts a library: a file that contains only rules for other files to import.
 Result<CheckResult> checkFileOnDisk(const std::string& file);
 
-/// Compiles a file as compileFile() does, and prints every message to stderr as "file:line:column: error: ..." with the
-/// source line and a caret. If `program` is null, `status` is the exit status.
+/// The result of loadGrammar(), which compiles a file like compileFile() and prints all messages to stderr, each with
+/// its source line and a caret. After an error, `program` is null and `status` is the exit status.
 struct LoadedGrammar {
   std::shared_ptr<const Program> program;
   Exit status = Exit::done;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int64_t kAroundUnits = int64_t{48} * kUnitsPerMetre;
 constexpr int64_t kMaxAcross = int64_t{1024} * kUnitsPerMetre;
-constexpr uint64_t kMaxCells = 4096;  // maximum number of cells of a layer that are searched for shapes
+constexpr uint64_t kMaxCells = 4096;  // maximum number of grammar cells in each layer that are searched for shapes
 
 IntBox around(const std::array<int64_t, 3>& centre, const std::array<int64_t, 3>& half) {
   IntBox box;
@@ -33,7 +33,7 @@ IntBox cube(int64_t metres) {
 
 double squareOf(Int3 p) { return 1.0 * p.x * p.x + 1.0 * p.y * p.y + 1.0 * p.z * p.z; }
 
-/// The squared distance from the world's origin to the box, in units.
+/// Squared distance from the world's origin to the nearest point of the box, in square units.
 double squareTo(const IntBox& box) {
   Int3 nearest;
   for (int axis = 0; axis < 3; ++axis) nearest[axis] = std::clamp(0, box.lo[axis], box.hi[axis]);
@@ -42,16 +42,17 @@ double squareTo(const IntBox& box) {
 
 Result<std::optional<Int3>> nearestAnchor(const WorldField& world, std::string_view wanted) {
   std::optional<Int3> nearest;
-  // Cubes are searched from small to large, since a large cube may contain a very large number of stacked cells.
+  // Search small cubes first: a large cube may contain a very large number of cells.
   for (const int64_t metres : {16, 32, 64, 128, 256, 512}) {
     const Result<std::vector<Anchor>> anchors = world.anchors(cube(metres));
-    if (!anchors && nearest) break;  // if a large cube fails, the anchor from a smaller one suffices
+    if (!anchors && nearest) break;  // use the anchor found in a smaller cube
     if (!anchors) return anchors.error();
     for (const Anchor& anchor : *anchors) {
       if (!isWanted(*world.settings().program, anchor, wanted)) continue;
       if (!nearest || squareOf(anchor.frame.origin) < squareOf(*nearest)) nearest = anchor.frame.origin;
     }
-    // An anchor in a corner of the cube may be farther away than one just outside its faces; then search the next cube.
+    // An anchor in a corner of this cube may be farther from the origin than one just outside a face: then search the
+    // next cube as well.
     const double units = static_cast<double>(metres * kUnitsPerMetre);
     if (nearest && squareOf(*nearest) <= units * units) break;
   }
@@ -64,8 +65,8 @@ bool isLarge(const IntBox& box) {
   return large;
 }
 
-/// The box of the nearest shape, joined with the boxes that touch it. If the nearest box alone is too large, the part
-/// around its middle.
+/// The box of the shape nearest to the origin, joined with the boxes that touch it. If the joined box is too large,
+/// returns only its middle part.
 IntBox nearestShapes(const std::vector<IntBox>& shapes) {
   const IntBox nearest = *std::min_element(shapes.begin(), shapes.end(),
                                            [](const IntBox& a, const IntBox& b) { return squareTo(a) < squareTo(b); });

@@ -1,5 +1,5 @@
 #pragma once
-// Chooses the region of an endless world if the options do not give one.
+// Chooses the region of an endless world that is meshed if the options give none.
 
 #include <array>
 #include <string_view>
@@ -9,19 +9,19 @@
 
 namespace sgm::cli {
 
-/// Whether an anchor's name, kind or tag equals `wanted`; an empty `wanted` accepts every anchor.
+/// Whether the anchor's name, kind or tag equals `wanted`; always true if `wanted` is empty.
 bool isWanted(const Program& program, const Anchor& anchor, std::string_view wanted);
 
-/// Boxes of the elements in the region that differ from the domain: shapes in air, cavities in rock.
+/// Bounding boxes of the shapes in the region that differ from the domain: solids in air, cavities in rock.
 Result<std::vector<IntBox>> shapesIn(const WorldField& world, const IntBox& region);
 
-/// The box that extends 48 m to each side of a place in metres.
+/// The box that extends 48 m from a place in both directions of each axis. place: metres.
 IntBox surroundingsOf(const std::array<double, 3>& place);
 
-/// The default region. It surrounds the anchor nearest to the world's origin, within 512 m, that isWanted() accepts. If
-/// there is no such anchor and wanted_anchor is empty, it surrounds the origin. If that region is empty, it contains
-/// the shape nearest to the origin, at most 8 km away, and the shapes whose boxes touch that shape's box, up to a size
-/// of 1 km. Errors: those of derivation.
+/// The default region of an endless world: a box around the anchor nearest to the world's origin that isWanted()
+/// accepts, if there is one within 512 m on each axis; otherwise a box around the origin. If wanted_anchor is empty and
+/// there is no shape around the origin, the region contains the nearest shape, at most 8 km away on each axis, and the
+/// shapes that touch it, up to a size of 1 km. Errors: those of derivation.
 Result<IntBox> surroundings(const WorldField& world, std::string_view wanted_anchor);
 
 }  // namespace sgm::cli

@@ -12,13 +12,13 @@
 namespace sgm::survey {
 namespace {
 
-constexpr int kTile = 32;          // columns along an edge of a tile, for which one field program is compiled
-constexpr int kBrick = 8;          // samples along an edge of a brick, which is evaluated in one call
-constexpr float kDeep = 2;         // steps: depths inside the subject are clipped to this value
-constexpr float kPassable = 1;     // metres, minimum height of a stretch into which a person fits
-constexpr float kRockBetween = 1;  // metres of rock between two passages one above the other, so that both are drawn
+constexpr int kTile = 32;          // columns along an edge of a tile; one field program is compiled for each tile
+constexpr int kBrick = 8;          // samples along an edge of a brick, the unit of one evaluation call
+constexpr float kDeep = 2;         // in steps, limit of the depth of a sample inside the void or solid that is drawn
+constexpr float kPassable = 1;     // metres, minimum height of an interval through which a person can pass
+constexpr float kRockBetween = 1;  // metres, minimum thickness of the rock between two passages that are both drawn
 
-/// Samples a box; x varies fastest, then z, then y. Used by one thread.
+/// Samples the field in a box; x varies fastest, then z, then y. Not thread-safe.
 class TileFill {
  public:
   TileFill(Int3 origin, int32_t step, std::array<int, 3> size)
@@ -26,7 +26,7 @@ class TileFill {
 
   void fill(const ProgramView& view) { fillPart(view, {}, size_, 0); }
 
-  /// The field's value in steps, clipped to kDeep; negative in the solid.
+  /// The field's value at a sample, in steps, clamped to -kDeep..kDeep; negative in the solid.
   float at(int x, int y, int z) const { return values_[index(x, y, z)]; }
 
  private:
@@ -75,7 +75,8 @@ class TileFill {
       }
     }
     bestKernels().samples(view, {x_.data(), y_.data(), z_.data(), points}, evaluation_, q_.data());
-    // Values are compared as integers, so that a sample exactly on the surface is void, as in meshes.
+    // Values are integers, and a sample exactly on the surface (0) counts as void, as in meshes: the offset makes it
+    // positive.
     const float steps = 1 / (view.q_scale * static_cast<float>(step_));
     points = 0;
     for (int y = 0; y < count[1]; ++y)
@@ -95,7 +96,8 @@ class TileFill {
   std::array<int32_t, size_t{kBrick} * kBrick * kBrick> x_{}, y_{}, z_{}, q_{};
 };
 
-/// The stretches of one column, and its values for a plan.
+/// The intervals of one column in the subject (the void or the solid that is drawn), and the column's values for a
+/// plan.
 struct Column {
   std::vector<Stretch> stretches;
   uint32_t shown = kNone;
@@ -103,8 +105,8 @@ struct Column {
   uint32_t floor_label = 0, ceiling_label = 0;
 };
 
-/// Finds the stretches of a column. value(i): the field at sample i, counted from below, in steps, positive inside the
-/// subject.
+/// Finds the intervals of the subject in one column. value(i): the field at sample i, counted from the bottom, in
+/// steps; positive inside the subject.
 template <class Value>
 Column readColumn(int samples, float bottom, float step, const Value& value) {
   Column column;
@@ -144,7 +146,7 @@ Column readColumn(int samples, float bottom, float step, const Value& value) {
   return column;
 }
 
-/// The lattice of samples of one tile of columns.
+/// The regular lattice of samples over the whole region.
 struct Lattice {
   Int3 origin;
   int32_t step = 0;

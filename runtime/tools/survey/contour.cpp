@@ -8,7 +8,7 @@
 namespace sgm::survey {
 namespace {
 
-/// The number of a grid edge: twice the index of its first point, plus 1 if it runs along y.
+/// Number of a grid edge: twice the index of its first point, plus 1 if the edge runs along y.
 using Edge = size_t;
 
 struct Segment {
@@ -40,9 +40,9 @@ class Marcher {
     }
     const Edge top = along(x, y), right = down(x + 1, y), bottom = along(x, y + 1), left = down(x, y);
     const std::array edges{top, right, bottom, left};
-    // Edge i lies between corners i and i + 1. Around the cell, a contour enters where values rise above the level and
-    // leaves where they fall below it. If there are two rises and two falls, the mean of the corners decides which are
-    // connected.
+    // Edge i lies between corners i and i + 1. Going around the cell, values rise above the level at some edges, and
+    // fall below it at others. A contour segment joins a rising and a falling edge. If there are two of each, the mean
+    // of the corners decides which pairs are joined.
     std::array<Edge, 2> rising{}, falling{};
     size_t rises = 0, falls = 0;
     std::array<size_t, 2> rise_at{}, fall_at{};
@@ -55,7 +55,7 @@ class Marcher {
     if (rises == 1) return add(falling[0], rising[0]);
     const bool together = sum / 4 > level_;
     for (size_t i = 0; i < 2; ++i) {
-      // A corner above the level lies between a rise and the next fall.
+      // A corner above the level lies between a rising edge and the next falling edge.
       const size_t after = (rise_at[i] + 1) % 4;
       const size_t same = fall_at[0] == after ? 0 : 1;
       add(falling[together ? 1 - same : same], rising[i]);
@@ -75,7 +75,8 @@ class Marcher {
     return edge % 2 == 0 ? Point{x + share, y} : Point{x, y + share};
   }
 
-  /// Joins segments end to end. At most one segment starts and at most one ends at each edge.
+  /// Joins segments with equal ends into lines. Each edge is the start of at most one segment, and the end of at most
+  /// one.
   std::vector<Line> joined() const {
     std::unordered_map<Edge, size_t> came;
     for (size_t i = 0; i < segments_.size(); ++i) came[segments_[i].to] = i;
@@ -102,7 +103,7 @@ class Marcher {
   const Grid& grid_;
   float level_;
   std::vector<Segment> segments_;
-  std::unordered_map<Edge, size_t> next_;  ///< index of the segment that starts at an edge
+  std::unordered_map<Edge, size_t> next_;  ///< for each edge, the index of the segment that starts there
 };
 
 }  // namespace
@@ -118,7 +119,7 @@ float Grid::between(Point p) const {
 std::vector<Line> contours(const Grid& grid, float level) { return Marcher(grid, level).lines(); }
 
 std::vector<Line> areasAbove(const Grid& grid, float level) {
-  // A frame of much lower values closes the rings, a thousandth of a step outside the border.
+  // Surround the grid by much lower values. They close the rings just outside the grid's border.
   Grid framed(grid.width + 2, grid.height + 2, level - 1e6f);
   for (int y = 0; y < grid.height; ++y)
     for (int x = 0; x < grid.width; ++x) framed.at(x + 1, y + 1) = grid.at(x, y);

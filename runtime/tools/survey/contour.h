@@ -1,5 +1,5 @@
 #pragma once
-// Values on a square grid, and their contour lines.
+// Contour lines of values on a square grid.
 
 #include <limits>
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace sgm::survey {
 
-/// Value of a point whose value is unknown: contours end beside such points.
+/// Marks a grid point without a known value. Contours end next to such points.
 inline constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-/// Values at the grid points (x, y); x varies fastest.
+/// Values at the points (x, y) of a square grid; x varies fastest.
 struct Grid {
   int width = 0, height = 0;
   std::vector<float> values;
@@ -25,23 +25,24 @@ struct Grid {
   float& at(int x, int y) { return values[index(x, y)]; }
   float at(int x, int y) const { return values[index(x, y)]; }
   bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
-  /// The bilinearly interpolated value; kUnknown outside the grid, or if one of the four neighbouring values is
+  /// The value at p by bilinear interpolation; kUnknown outside the grid, or if one of the four nearest values is
   /// unknown.
   float between(Point p) const;
 };
 
-/// Contours by marching squares, in grid coordinates. Larger values lie on the right of a line if y points down. The
-/// last point of a closed line equals its first point.
+/// The contour lines at a level, by marching squares, in grid coordinates. If y points down, larger values are on the
+/// right of a line. In a closed line, the last point equals the first.
 std::vector<Line> contours(const Grid& grid, float level);
 
-/// The boundaries of all areas above the level, as closed rings that follow the grid's border where an area reaches it.
-/// Every value must be known.
+/// The boundaries of all areas above the level, as closed rings. A ring follows the grid's border where its area
+/// reaches the border. Contract: no value is kUnknown.
 std::vector<Line> areasAbove(const Grid& grid, float level);
 
-/// Smooths a line by cutting its corners twice (Chaikin 1974). Ends of open lines stay, closed lines stay closed.
+/// Smooths a line by two rounds of corner cutting (Chaikin 1974). The ends of an open line stay fixed; a closed line
+/// stays closed.
 Line smoothed(const Line& line);
 
-/// The parts of a line whose points all satisfy `wanted`.
+/// The longest parts of a line in which all points satisfy `wanted`.
 template <class Wanted>
 std::vector<Line> partsOf(const Line& line, const Wanted& wanted) {
   std::vector<Line> parts;
@@ -58,15 +59,15 @@ std::vector<Line> partsOf(const Line& line, const Wanted& wanted) {
   return parts;
 }
 
-/// Replaces each value by the mean of its known neighbours, and repeats this `times` times.
+/// Replaces each known value by a weighted mean of itself and its known neighbours; repeats this `times` times.
 void soften(Grid& grid, int times);
 
-/// Sets unknown values beside known ones to the mean of these, and repeats this `times` times.
+/// Replaces each unknown value by the mean of its known neighbours, if there are any; repeats this `times` times.
 void spread(Grid& grid, int times);
 
 double lengthOf(const Line& line);
 
-/// Area of the parts above 0, in grid squares, estimated from the values at the points.
+/// Total area above 0, in grid squares, estimated from the values at the grid points.
 double squaresAbove(const Grid& grid);
 
 }  // namespace sgm::survey

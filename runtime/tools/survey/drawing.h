@@ -1,5 +1,5 @@
 #pragma once
-// A drawing of lines, areas and lettering, which is written as an SVG file or as a picture.
+// A vector drawing of lines, areas and text, which can be written as SVG or rasterized.
 
 #include <cstdint>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace sgm::survey {
 
-/// A position in pixels from the upper left corner, x to the right, y down.
+/// A position in pixels from the upper left corner; x points right, y points down.
 struct Point {
   double x = 0, y = 0;
   friend bool operator==(const Point&, const Point&) = default;
@@ -22,25 +22,25 @@ struct Ink {
 
 inline constexpr Ink kBlack{}, kWhite{255, 255, 255};
 
-/// Lines drawn with one pen, or areas filled with one colour.
+/// Lines of one pen width and colour, or areas of one colour.
 struct Mark {
-  /// Name of the mark's meaning, such as "wall", used as the class of its SVG element; a string literal.
+  /// Name of the mark's meaning, such as "wall", which becomes the class of its SVG element; must be a string literal.
   std::string_view name;
-  std::vector<Line> lines;  ///< for an area: rings, closed automatically, filled by the even-odd rule
+  std::vector<Line> lines;  ///< for areas: rings, which are closed automatically and filled by the even-odd rule
   bool filled = false;
   Ink ink = kBlack;
-  double width = 1;            ///< width of the pen, pixels
-  std::vector<double> dashes;  ///< alternating lengths that are drawn and skipped, pixels; empty: a solid line
-  std::string text;            ///< for lettering: the text whose strokes the lines are
+  double width = 1;            ///< width of the pen in pixels
+  std::vector<double> dashes;  ///< lengths in pixels, alternately drawn and skipped; empty: solid line
+  std::string text;            ///< for lettering: the text that the lines spell
 };
 
-/// A sheet of white paper, on which the marks are painted in order.
+/// A white sheet with marks, painted in this order.
 struct Drawing {
   int width = 0, height = 0;
   std::vector<Mark> marks;
 };
 
-/// The parts of a line that a dash pattern draws. Precondition: the sum of the dashes is positive, or there are none.
+/// Cuts a line into the dashes of a pattern. Contract: `dashes` is empty or has a positive sum.
 std::vector<Line> dashed(const Line& line, const std::vector<double>& dashes);
 
 }  // namespace sgm::survey

@@ -10,8 +10,9 @@ namespace {
 // Standards. The format of the Font data in this distribution was originally created by James Hurt, Cognition, Inc.,
 // 900 Technology Park Drive, Billerica, MA 01821 (mit-eddie!ci-dandelion!hurt).
 //
-// Roman simplex, starting with the space. Coordinates are letters relative to 'R': first the left and right ends of the
-// glyph, then points x y of its strokes, y down; a space and an R lift the pen.
+// The font is Roman simplex, one string for each ASCII character from the space on. Each coordinate is a letter, and
+// 'R' stands for 0. A string begins with the left and right ends of its glyph; then follow the points (x, y) of its
+// strokes, y down. A space followed by 'R' lifts the pen.
 constexpr std::array<std::string_view, 95> kGlyphs{{
     R"(JZ)",
     R"(MWRFRT RRYQZR[SZRY)",
@@ -110,7 +111,7 @@ constexpr std::array<std::string_view, 95> kGlyphs{{
     R"(F^IUISJPLONOPPTSVTXTZS[Q RISJQLPNPPQTTVUXUZT[Q[O)",
 }};
 
-constexpr double kCapital = 21, kBaseline = 9;  // height of capitals, and y of the baseline, in the units of the glyphs
+constexpr double kCapital = 21, kBaseline = 9;  // in glyph units: height of capital letters, and y of the baseline
 
 std::string_view glyphFor(char letter) {
   const auto index = static_cast<size_t>(static_cast<unsigned char>(letter)) - 32;
@@ -119,7 +120,7 @@ std::string_view glyphFor(char letter) {
 
 double edge(char letter) { return letter - 'R'; }
 
-/// The text with one character for each code point: '?' for characters beyond ASCII.
+/// The text with one character for each code point; a code point beyond ASCII keeps only its first byte.
 std::string plain(std::string_view text) {
   std::string out;
   for (const char c : text)

@@ -1,5 +1,5 @@
 #pragma once
-// Letters as pen strokes, which are identical in SVG files and pictures, and independent of installed fonts.
+// Text as pen strokes: it looks the same in SVG files and pictures, and does not depend on installed fonts.
 
 #include <string_view>
 
@@ -9,11 +9,11 @@ namespace sgm::survey {
 
 enum class Align { left, middle, right };
 
-/// Width of the text in pixels. height: height of capital letters, pixels.
+/// Width of a text in pixels. height: height of capital letters in pixels.
 double letterWidth(std::string_view text, double height);
 
-/// The strokes of a text whose baseline is at `at`. Characters beyond ASCII are drawn as question marks. height: height
-/// of capital letters, pixels.
+/// The strokes of a text. at: point on the baseline, at the text's left end, middle or right end, depending on `align`.
+/// height: height of capital letters in pixels. Characters beyond ASCII are drawn as question marks.
 Mark lettering(std::string_view text, Point at, double height, Align align = Align::left, Ink ink = kBlack);
 
 }  // namespace sgm::survey

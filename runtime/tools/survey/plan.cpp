@@ -12,14 +12,15 @@ namespace sgm::survey {
 namespace {
 
 constexpr Ink kHidden{70, 70, 70};
-constexpr double kLetters = 8, kSmall = 7, kGap = 5;  // pixels: heights of letters, and space around them
-// pixels: minimum distance between any labels, and between labels of equal height
+// Pixels: heights of large and small letters, and gap between the label of a floor's height and the circle next to it.
+constexpr double kLetters = 8, kSmall = 7, kGap = 5;
+// pixels: minimum distance between two labels, and between two labels with the same height
 constexpr double kBetweenLabels = 110, kBetweenLikeLabels = 240;
 constexpr size_t kMaxLabels = 24;
-// metres: minimum length of the border that a passage must cross to count as continuing
+// metres, minimum length of the region's border within a passage for the passage to count as continuing
 constexpr double kLeastLead = 1.5;
 
-/// Approximate distances to the walls, in steps; they only serve to choose places for labels.
+/// Approximate distance of each grid point to the nearest wall, in steps, for placing labels.
 Grid distancesToWalls(const Grid& widest) {
   Grid distance(widest.width, widest.height, 0);
   const auto from = [&](int x, int y, int dx, int dy, float step) {
@@ -70,10 +71,10 @@ void drawWater(const Columns& columns, const MaterialSigns& signs, const Placeme
   }
 }
 
-/// Draws the outlines of passages that lie below the shown ones as dashed lines.
+/// Draws the outlines of passages below the shown ones as dashed lines.
 void drawUnder(const Columns& columns, const Placement& place, Drawing& drawing) {
   Mark mark{"under", {}, false, kHidden, 0.9, {5, 3}, {}};
-  const double least = 4 / metres(columns.step);  // metres of outline
+  const double least = 4 / metres(columns.step);  // minimum length of an outline, 4 m, in steps
   for (const Line& line : contours(columns.under, 0))
     if (lengthOf(line) > least) mark.lines.push_back(place.at(smoothed(line)));
   if (!mark.lines.empty()) drawing.marks.push_back(std::move(mark));
@@ -84,14 +85,14 @@ void drawWalls(const Columns& columns, const Placement& place, Drawing& drawing)
   for (const Line& line : contours(columns.widest, 0)) {
     const double length = lengthOf(line) * place.scale;
     if (length < 3) continue;
-    // Small closed lines are pillars, or niches too small for the thick pen: draw them with the thin pen.
+    // Small closed lines are pillars or niches, for which the thick pen of walls is too coarse: use a thinner pen.
     (line.front() == line.back() && length < 60 ? pillar : wall).lines.push_back(place.at(line));
   }
   for (Mark* mark : {&wall, &pillar})
     if (!mark->lines.empty()) drawing.marks.push_back(std::move(*mark));
 }
 
-/// Draws a question mark at each place where a passage continues beyond the region's border.
+/// Draws a dotted line and a question mark wherever a passage continues beyond the region's border.
 void drawLeads(const Columns& columns, const Placement& place, Lettered& lettered, PlanFigures& figures,
                Drawing& drawing) {
   const Grid& widest = columns.widest;
@@ -109,7 +110,7 @@ void drawLeads(const Columns& columns, const Placement& place, Lettered& lettere
       open.lines.push_back({place.at(at(first)), place.at(at(i - 1))});
       const Point a = place.at(at(first)), b = place.at(at(i - 1));
       const Point middle{(a.x + b.x) / 2 + 10 * outward.x, (a.y + b.y) / 2 + 10 * outward.y};
-      // In an open world, ground beyond the region gets no question mark.
+      // No question marks in an open world, where the ground continues everywhere.
       if (columns.subject == Subject::hollow && lettered.take(middle, 10, 12))
         drawing.marks.push_back(lettering("?", {middle.x, middle.y + kLetters / 2}, kLetters + 1, Align::middle));
     }
@@ -122,7 +123,7 @@ void drawLeads(const Columns& columns, const Placement& place, Lettered& lettere
   if (!open.lines.empty()) drawing.marks.push_back(std::move(open));
 }
 
-/// Draws a number in a circle.
+/// Draws a number in a circle, on white.
 void drawCircled(const std::string& number, Point middle, double radius, Drawing& drawing) {
   Line circle;
   constexpr int kCorners = 24;
@@ -136,7 +137,7 @@ void drawCircled(const std::string& number, Point middle, double radius, Drawing
   drawing.marks.push_back(lettering(number, {middle.x, middle.y + kSmall / 2}, kSmall, Align::middle));
 }
 
-/// Draws letters with a white border around them, which interrupts lines behind.
+/// Draws letters with a white outline, which interrupts the lines behind them.
 void drawOnWhite(Mark letters, Drawing& drawing) {
   Mark ground = letters;
   ground.name = "halo";
@@ -147,7 +148,7 @@ void drawOnWhite(Mark letters, Drawing& drawing) {
   drawing.marks.push_back(std::move(letters));
 }
 
-/// Draws heights of floors and of water, and the height of the passage in a circle, where there is room.
+/// Writes heights of floors and water surfaces, each with the height of the passage in a circle, where there is room.
 void drawHeights(const Columns& columns, const MaterialSigns& signs, const Placement& place, Lettered& lettered,
                  Drawing& drawing) {
   const bool hollow = columns.subject == Subject::hollow;
@@ -247,7 +248,7 @@ PlanFigures drawPlan(const Columns& columns, const MaterialSigns& signs, const P
     if (!area.lines.empty()) drawing.marks.push_back(std::move(area));
   }
   Lettered lettered;
-  Drawing letters;  // marks that are drawn last, above all lines
+  Drawing letters;  // marks that are painted last, over all lines
   drawWater(columns, signs, place, figures, drawing);
   drawHeights(columns, signs, place, lettered, letters);
   figures.interval = drawRelief(columns, signs, place, lettered, drawing);

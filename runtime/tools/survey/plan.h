@@ -55,7 +55,7 @@ class Lettered {
 /// Measures of a plan. Lengths are in metres.
 struct PlanFigures {
   double interval = 0;             ///< height difference between neighbouring contours; 0 without contours
-  double area = 0;                 ///< area of the subject seen from above, square metres
+  double area = 0;                 ///< area of the drawn void or solid, seen from above, square metres
   double lowest = 0, highest = 0;  ///< lowest and highest floor of a hollow, or top of a solid
   std::set<double> water;          ///< heights of water surfaces, rounded to a tenth of a metre
   size_t dripstones = 0;           ///< number of dripstone symbols

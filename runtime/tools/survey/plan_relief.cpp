@@ -1,4 +1,4 @@
-// Draws the floors and ceilings of a plan: contours, hachures, steps, and signs for dripstone.
+// Draws the relief of a plan: contours and hachures of floors, steps of ceilings, and symbols for dripstone.
 
 #include <fmt/core.h>
 
@@ -14,15 +14,15 @@ namespace {
 
 constexpr Ink kContour{110, 110, 110}, kCeiling{60, 60, 60};
 constexpr double kMaxLevels = 14;
-constexpr double kSteep = 0.75;       // slope from which floors get hachures (rise over run)
-constexpr double kCeilingStep = 1.6;  // slope from which ceilings count as steps (rise over run)
-constexpr double kFloorAbove = 1.8;   // metres that the floor must continue to rise uphill of a hachure
-constexpr double kHachureGap = 6;     // pixels along a contour from one hachure to the next
-constexpr int kMainEvery = 5;         // number of contours from one main contour to the next
-// Minimum distance in pixels between contours; on cliffs only main contours are drawn.
+constexpr double kSteep = 0.75;       // minimum slope (rise over run) of a floor with hachures
+constexpr double kCeilingStep = 1.6;  // minimum slope (rise over run) of a step in the ceiling
+constexpr double kFloorAbove = 1.8;   // metres by which the floor must rise further uphill of a hachure
+constexpr double kHachureGap = 6;     // pixels between hachures along a contour
+constexpr int kMainEvery = 5;         // every kMainEvery-th contour is a main contour
+// Minimum distance between contours in pixels. On steeper slopes, only main contours are drawn.
 constexpr double kLeastApart = 4;
-constexpr double kLongestHachure = 7;  // maximum length of a hachure in pixels
-constexpr double kFlowstone = 6;       // m2; larger areas of flowstone are outlined
+constexpr double kLongestHachure = 7;  // pixels, maximum length of a hachure
+constexpr double kFlowstone = 6;       // square metres; larger flowstone gets an outline instead of a symbol
 
 double niceInterval(double range) {
   for (const double interval : {0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0})
@@ -30,7 +30,7 @@ double niceInterval(double range) {
   return 200;
 }
 
-/// The slope of a grid of heights at a point (rise over run), as a vector that points uphill.
+/// Gradient of a grid of heights at a point: points uphill, and its length is the slope (rise over run).
 Point slopeAt(const Grid& heights, Point p, double step) {
   constexpr double kReach = 1;
   const auto at = [&](double dx, double dy) { return static_cast<double>(heights.between({p.x + dx, p.y + dy})); };
@@ -39,8 +39,8 @@ Point slopeAt(const Grid& heights, Point p, double step) {
   return std::isnan(slope.x) || std::isnan(slope.y) ? Point{} : slope;
 }
 
-/// Draws hachures down the slope along a contour. A hachure needs floor uphill of it, since a passage's walls are steep
-/// too.
+/// Draws hachures (short strokes downhill) along a contour. A hachure requires further floor uphill of it: otherwise
+/// the slope is the foot of a wall.
 void hachure(const Line& line, const Grid& heights, const Grid& within, double step, double interval,
              const Placement& place, Mark& ticks) {
   double since = kHachureGap / 2;
@@ -53,7 +53,7 @@ void hachure(const Line& line, const Grid& heights, const Grid& within, double s
     if (steepness < kSteep) continue;
     const double uphill = kFloorAbove / step / steepness;
     if (!(within.between({line[i].x + uphill * slope.x, line[i].y + uphill * slope.y}) > 0)) continue;
-    // A hachure must not reach the next contour.
+    // Keep the hachure shorter than the distance to the next contour.
     const double apart = interval / steepness / step * place.scale, length = std::min(kLongestHachure, 0.8 * apart);
     if (length < 2) continue;
     const Point from = place.at(line[i]);
@@ -61,7 +61,7 @@ void hachure(const Line& line, const Grid& heights, const Grid& within, double s
   }
 }
 
-/// Draws the height of a contour at its middle, if there is room.
+/// Writes the height of a contour at the line's middle, if there is room.
 void letter(const Line& line, double level, const Placement& place, Lettered& lettered, Drawing& letters) {
   if (lengthOf(line) * place.scale < 90) return;
   const Point middle = place.at(line[line.size() / 2]);
@@ -82,7 +82,7 @@ void drawFloors(const Columns& columns, Grid heights, const Grid& within, double
   float low = 1e9f, high = -1e9f;
   for (const float height : heights.values)
     if (!std::isnan(height)) low = std::min(low, height), high = std::max(high, height);
-  // Extend the heights beyond the floor, so that contours reach the walls, where they are clipped.
+  // Extend the heights by one step beyond the floor, so that contours reach the walls, where they are clipped.
   spread(heights, 1);
   Mark contour{"contour", {}, false, kContour, 0.5, {}, {}}, main{"main_contour", {}, false, kContour, 0.9, {}, {}};
   Mark ticks{"hachure", {}, false, kBlack, 0.7, {}, {}};
@@ -97,7 +97,7 @@ void drawFloors(const Columns& columns, Grid heights, const Grid& within, double
   };
   for (int i = first; i <= last; ++i) {
     const bool is_main = i % kMainEvery == 0;
-    // The contour is slightly above its nominal level, since flat floors often lie exactly at whole metres.
+    // Draw the contour slightly above its nominal level: flat floors often lie exactly at whole metres.
     for (const Line& whole : contours(heights, static_cast<float>(i * interval + 0.01))) {
       for (const Line& line :
            partsOf(smoothed(whole), [&](const Point& p) { return inside(p) && (is_main || isClear(p)); })) {
@@ -125,7 +125,7 @@ void drawCeilings(const Columns& columns, double interval, const Placement& plac
   soften(heights, 2);
   Mark steps{"ceiling_step", {}, false, kCeiling, 0.8, {4, 3}, {}};
   const double step = metres(columns.step);
-  // Walls are steep too: a place counts as a step only if there is passage on both sides.
+  // Walls are steep as well: a place is a step of the ceiling only if the passage extends on both sides.
   const auto isStep = [&](const Point& p) {
     const Point slope = slopeAt(heights, p, step);
     const double steepness = std::hypot(slope.x, slope.y);
@@ -145,7 +145,7 @@ void drawCeilings(const Columns& columns, double interval, const Placement& plac
   if (!steps.lines.empty()) drawing.marks.push_back(std::move(steps));
 }
 
-/// The connected groups of the wanted columns, as lists of column indices.
+/// Connected components of the columns in `wanted`, each as a list of column indices.
 std::vector<std::vector<size_t>> groupsOf(const Grid& grid, const std::vector<bool>& wanted) {
   std::vector<std::vector<size_t>> groups;
   std::vector<bool> seen(wanted.size());
@@ -177,7 +177,7 @@ double drawRelief(const Columns& columns, const MaterialSigns& signs, const Plac
   Grid within = columns.widest;
   std::vector<float> known;
   for (size_t i = 0; i < heights.values.size(); ++i) {
-    // Water is level, and the floor below it is not drawn: exclude these columns.
+    // Exclude columns under water: the water surface is level, and the floor below it is not drawn.
     if (columns.subject == Subject::hollow && signs.isWater(columns.floor_label[i])) within.values[i] = -1;
     if (!std::isnan(heights.values[i])) known.push_back(heights.values[i]);
   }
@@ -209,7 +209,8 @@ size_t drawDripstone(const Columns& columns, const MaterialSigns& signs, const P
     if (!taken.take(p, 2 * kSize + 3, 2 * kSize + 3)) return false;
     Mark& mark = up && down ? both : up ? standing : hanging;
     mark.lines.push_back({{p.x, p.y - (up ? kSize : 0)}, {p.x, p.y + (down ? kSize : 0)}});
-    // A sign's legs point down for a stalagmite, and its arms point up for a stalactite.
+    // The symbol of a stalagmite has strokes that point down (legs); that of a stalactite has strokes that point up
+    // (arms).
     for (const double side : {-0.7, 0.7}) {
       if (up) mark.lines.push_back({{p.x, p.y}, {p.x + side * kSize, p.y + kSize}});
       if (down) mark.lines.push_back({{p.x, p.y}, {p.x + side * kSize, p.y - kSize}});

@@ -7,9 +7,9 @@
 namespace sgm::survey {
 namespace {
 
-constexpr int kScans = 4;  // scan lines per pixel when areas are filled
+constexpr int kScans = 4;  // scan lines per row of pixels in filled areas
 
-/// The covered share of each pixel, 0 to 1, in a rectangle of the picture.
+/// The share of each pixel, 0..1, that a mark covers, in a rectangle of the picture.
 struct Coverage {
   int left = 0, top = 0, width = 0, height = 0;
   std::vector<float> values;
@@ -19,7 +19,7 @@ struct Coverage {
   }
 };
 
-/// An empty coverage for a rectangle that contains all lines plus a margin, clipped to the picture.
+/// A zero-filled Coverage for the bounding rectangle of all lines plus a margin, clipped to the picture.
 Coverage roomFor(const Image& image, const std::vector<Line>& lines, double margin) {
   double x0 = 1e9, y0 = 1e9, x1 = -1e9, y1 = -1e9;
   for (const Line& line : lines) {
@@ -39,7 +39,8 @@ Coverage roomFor(const Image& image, const std::vector<Line>& lines, double marg
   return room;
 }
 
-/// Covers a segment drawn by a round pen: the distance of pixel centres from the segment determines the covered share.
+/// Covers the pixels of a line segment drawn with a round pen. The distance of a pixel's centre from the segment
+/// determines the covered share.
 void cover(Coverage& room, Point a, Point b, double width) {
   const double reach = width / 2 + 0.5, dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
   const int x0 = std::max(room.left, static_cast<int>(std::floor(std::min(a.x, b.x) - reach)));
@@ -67,8 +68,8 @@ void coverLines(Coverage& room, const Mark& mark) {
   }
 }
 
-/// Fills areas by the even-odd rule: covers the spans between the first and second crossing of a scan line, the third
-/// and fourth, and so on.
+/// Covers areas by the even-odd rule: on each scan line, the spans from the first to the second crossing, from the
+/// third to the fourth, and so on.
 void coverAreas(Coverage& room, const Mark& mark) {
   std::vector<double> crossings;
   for (int scan = room.top * kScans; scan < (room.top + room.height) * kScans; ++scan) {

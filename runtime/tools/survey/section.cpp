@@ -11,11 +11,12 @@ namespace sgm::survey {
 namespace {
 
 constexpr Ink kBeyond{240, 240, 240}, kOutline{150, 150, 150}, kGuide{215, 215, 215};
-constexpr double kStrip = 9;       // pixels, height of the strip of water that is drawn under its surface
-constexpr int kAround = 4;         // samples of margin around the drawn part
-constexpr double kTickGap = 7;     // pixels along an outline between two ticks, which mark the rock's side
-constexpr double kTick = 6;        // length of a tick in pixels
-constexpr double kHeightGap = 36;  // minimum distance in pixels between two height labels
+constexpr double kStrip = 9;  // pixels, height of the strip that represents water below its surface
+constexpr int kAround = 4;    // samples, margin around the drawn part of the slice
+// Pixels, distance along an outline between ticks (strokes that show on which side the rock is).
+constexpr double kTickGap = 7;
+constexpr double kTick = 6;        // pixels, length of a tick
+constexpr double kHeightGap = 36;  // pixels, minimum distance between two labels of heights
 
 void drawGuides(const Slice& slice, const Crop& crop, const Placement& place, Drawing& drawing) {
   const double metre = place.scale / slice.step;
@@ -42,7 +43,7 @@ void drawGuides(const Slice& slice, const Crop& crop, const Placement& place, Dr
   for (Mark& mark : letters.marks) drawing.marks.push_back(std::move(mark));
 }
 
-/// The samples that are water, as a grid for contours: 1 in water, otherwise -1.
+/// A grid for contours of the water in a slice: 1 at samples in water, otherwise -1.
 Grid waterOf(const Slice& slice, const MaterialSigns& signs) {
   Grid water(slice.depth.width, slice.depth.height, -1);
   for (size_t i = 0; i < water.values.size(); ++i)
@@ -50,7 +51,7 @@ Grid waterOf(const Slice& slice, const MaterialSigns& signs) {
   return water;
 }
 
-/// Whether water is next to a place on the outline.
+/// Whether one of the four samples around a point of the outline is water.
 bool isByWater(const Grid& water, Point p) {
   const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y));
   for (int dy = 0; dy <= 1; ++dy)
@@ -59,7 +60,7 @@ bool isByWater(const Grid& water, Point p) {
   return false;
 }
 
-/// Draws short strokes from a line into the rock, which lies on its left or right.
+/// Draws ticks: short strokes from a line into the rock. left: whether the rock is on the left of the line.
 void tick(const Line& line, bool left, Mark& ticks) {
   double since = kTickGap / 2;
   const double side = left ? 1 : -1;
@@ -70,7 +71,7 @@ void tick(const Line& line, bool left, Mark& ticks) {
     for (; length > 0 && at <= length; at += kTickGap) {
       const Point along{(b.x - a.x) / length, (b.y - a.y) / length}, into{side * along.y, -side * along.x};
       const Point from{a.x + at * along.x, a.y + at * along.y};
-      // The strokes are slanted, as hachures for rock usually are.
+      // Slant the strokes, as is usual for rock in sections.
       ticks.lines.push_back({from,
                              {from.x + kTick * (0.8 * into.x + 0.6 * side * along.x),
                               from.y + kTick * (0.8 * into.y + 0.6 * side * along.y)}});
@@ -79,7 +80,7 @@ void tick(const Line& line, bool left, Mark& ticks) {
   }
 }
 
-/// The part of a slice's grid within the crop.
+/// The part of a slice's grid that the crop selects.
 Grid cropped(const Grid& grid, const Crop& crop) {
   Grid part(crop.right - crop.left + 1, crop.bottom - crop.top + 1, 0);
   for (int y = 0; y < part.height; ++y)
@@ -147,7 +148,7 @@ SectionFigures drawSection(const Slice& slice, const Crop& crop, const MaterialS
     }
     for (const Line& part : partsOf(line, isWet)) {
       shore.lines.push_back(within.at(part));
-      // The field does not show the water's depth, since the water's shape also fills the rock below: draw a strip.
+      // Draw only a strip of water: its depth is unknown, since the shape of the water also fills the rock below.
       Line strip = shore.lines.back();
       for (size_t i = strip.size(); i-- > 0;) strip.push_back({strip[i].x, strip[i].y + kStrip});
       body.lines.push_back(std::move(strip));

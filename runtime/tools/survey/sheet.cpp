@@ -12,10 +12,11 @@ namespace sgm::survey {
 namespace {
 
 constexpr double kMargin = 40, kFooter = 110, kCaption = 24, kBetween = 56, kHeights = 34;  // pixels: margins and gaps
+                                                                                            // of the sheet
 constexpr double kTitle = 15, kText = 8, kAbove = 20;
-constexpr double kAroundPlan = 2;  // metres of margin around the drawn part
+constexpr double kAroundPlan = 2;  // metres, margin around the drawn part of the plan
 
-/// The part of the plan's columns that is drawn.
+/// The part of the columns that the plan draws: all columns that meet the void or solid to draw, plus a margin.
 Crop planCrop(const Columns& columns) {
   const Grid& widest = columns.widest;
   Crop crop{widest.width, -1, widest.height, -1};
@@ -33,20 +34,20 @@ Crop planCrop(const Columns& columns) {
 }
 
 struct Extent {
-  double wide = 0, high = 0;  ///< size of a plan or section, metres
+  double wide = 0, high = 0;  ///< metres, size of a plan or section
 };
 
 Extent extentOf(const Crop& crop, double step) {
   return {std::max(1, crop.right - crop.left) * step, std::max(1, crop.bottom - crop.top) * step};
 }
 
-/// The scale, and the places of plan and section on the sheet.
+/// Scale and positions of the plan and the section on the sheet.
 struct Layout {
   double scale = 0;     ///< pixels per metre
-  Point plan, section;  ///< upper left corners
+  Point plan, section;  ///< positions of their upper left corners, pixels
 };
 
-/// Arranges plan and section one below the other or side by side, whichever gives the larger scale.
+/// Arranges the plan and the section below or beside each other, whichever allows the larger scale.
 Layout arrange(const SheetRequest& request, const Extent* plan, const Extent* section) {
   const double wide = request.width - 2 * kMargin, high = request.height - 2 * kMargin - kFooter - kCaption;
   Layout layout;
@@ -102,7 +103,7 @@ void drawScaleBar(const Layout& layout, Point at, Drawing& drawing) {
       lettering(fmt::format("{:g} m", length), {at.x + kParts * part, at.y - 5}, kText - 1, Align::middle));
 }
 
-/// Draws the north arrow. North is -z, and east is +x.
+/// Draws the north arrow, which points up: north is the world's -z.
 void drawNorth(Point at, Drawing& drawing) {
   drawing.marks.push_back({"north", {{{at.x, at.y + 40}, {at.x, at.y}}}, false, kBlack, 1.2, {}, {}});
   drawing.marks.push_back(
@@ -117,7 +118,7 @@ void drawNorth(Point at, Drawing& drawing) {
   drawing.marks.push_back(lettering("N", {at.x, at.y - 12}, kText + 2, Align::middle));
 }
 
-/// Draws the section's line into the plan, with letters at both ends.
+/// Draws the line of the section into the plan, with the letters A and A' at its ends.
 void drawCutLine(const Columns& columns, const Slice& slice, const Crop& crop, const Placement& place,
                  Drawing& drawing) {
   const double length = slice.line.length();
@@ -155,7 +156,7 @@ std::string legend(const Columns& columns, const SheetFigures& figures, bool pla
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// Wraps a text at spaces into lines of at most that width.
+/// Breaks a text at spaces into lines of at most `width` pixels. height: height of capital letters.
 std::vector<std::string> wrapped(const std::string& text, double height, double width) {
   std::vector<std::string> lines{""};
   for (size_t at = 0; at < text.size();) {

@@ -1,6 +1,5 @@
 #pragma once
-// A sheet of paper with a plan, a long section, or both at the same scale; with a title, a scale bar, and a north
-// arrow.
+// A sheet with a plan, a section, or both at the same scale, and with a title, a scale bar and a north arrow.
 
 #include <optional>
 
@@ -9,23 +8,23 @@
 namespace sgm::survey {
 
 struct SheetRequest {
-  int width = 1600, height = 1200;  ///< size of the sheet in pixels
-  bool plan = true;                 ///< draws a plan; if false, the section alone
-  std::string title;                ///< text such as "cave.sgm"
-  std::string subtitle;             ///< text with seed and region
+  int width = 1600, height = 1200;  ///< pixels, size of the sheet
+  bool plan = true;                 ///< whether a plan is drawn; if false, only the section
+  std::string title;                ///< title of the sheet, such as "cave.sgm"
+  std::string subtitle;             ///< second line of the title, with seed and region
 };
 
 struct SheetFigures {
-  double scale = 0;  ///< pixels for each metre
+  double scale = 0;  ///< pixels per metre
   PlanFigures plan;
   SectionFigures section;
 };
 
-/// Minimum width and height of a sheet, pixels.
+/// Minimum width and height of a sheet in pixels.
 inline constexpr int kLeastSheet = 320;
 
-/// Draws the sheet. slice: the section to draw; null: the plan alone. Contract: wish.plan is set or slice is not null,
-/// and each edge of the sheet has at least kLeastSheet pixels.
+/// Draws the sheet. slice: the section to draw, or null for none. Contract: request.plan is true or slice is not null,
+/// and the sheet has at least kLeastSheet pixels in width and height.
 Drawing drawSheet(const Columns& columns, const Slice* slice, const MaterialSigns& signs, const SheetRequest& request,
                   SheetFigures& figures);
 

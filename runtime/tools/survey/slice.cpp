@@ -8,11 +8,11 @@
 namespace sgm::survey {
 namespace {
 
-constexpr int kBlock = 32;  // samples along an edge of a block, for which one field program is compiled
+constexpr int kBlock = 32;  // samples along an edge of a block; one field program is compiled for each block
 constexpr float kDeepest = 2;
-constexpr double kWorldEnd = 2'097'151;  // largest distance from the world's origin on an axis, in metres
+constexpr double kWorldEnd = 2'097'151;  // metres, maximum coordinate of the world on each axis
 
-/// The part of the line within the columns' extent; nullopt if they do not meet.
+/// The part of a line within the horizontal extent of the columns; nullopt if the line misses it.
 std::optional<CutLine> clippedTo(const Columns& columns, const CutLine& line) {
   double from = 0, to = 1;
   const double starts[] = {line.x0, line.z0}, ways[] = {line.x1 - line.x0, line.z1 - line.z0};
@@ -32,7 +32,8 @@ std::optional<CutLine> clippedTo(const Columns& columns, const CutLine& line) {
                  starts[1] + to * ways[1]};
 }
 
-/// Projects the subject of all columns onto the plane of the cut.
+/// Projects the subject (the void or the solid that is drawn) in all columns onto the plane of the cut, as
+/// Slice::beyond.
 void lookBeyond(const Columns& columns, Slice& slice) {
   slice.beyond = Grid(slice.depth.width, slice.depth.height, -1);
   const double length = slice.line.length();
@@ -85,8 +86,8 @@ Result<void> readBlock(const WorldField& world, int level, int left, int top, Sl
   return {};
 }
 
-/// Index of the middle of the first interval whose areas are nearly the largest. Areas near the region's border do not
-/// count, because the border may cut a passage lengthwise.
+/// Index in the middle of the first run of areas that are nearly as large as the largest. Areas near both ends do not
+/// count: there, the region's border may cut a passage lengthwise.
 double middleOfBest(const std::vector<double>& areas) {
   constexpr double kAsGood = 0.97;
   const size_t edge = areas.size() / 12, end = areas.size() - edge;

@@ -22,7 +22,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-/// A number rounded to hundredths of a pixel, without trailing zeros.
+/// A number as text, rounded to hundredths (of a pixel), without trailing zeros.
 std::string number(double value) {
   std::string text = fmt::format("{:.2f}", value);
   while (text.back() == '0') text.pop_back();

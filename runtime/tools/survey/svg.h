@@ -7,8 +7,8 @@
 
 namespace sgm::survey {
 
-/// The text of an SVG file. Every mark becomes a path whose class is the mark's name. Lettering gets its text as a
-/// label for screen readers and searches. title: title of the whole file.
+/// The drawing as an SVG file. Each mark becomes a path whose class is the mark's name. Lettering also gets its text as
+/// a label, for screen readers and search. title: title of the file.
 std::string svgText(const Drawing& drawing, std::string_view title);
 
 }  // namespace sgm::survey

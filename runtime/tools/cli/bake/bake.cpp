@@ -1,4 +1,4 @@
-// Sgm bake: meshes a region of a world at several levels of detail ahead of time, into a store from which worlds
+// `sgm bake`: meshes a region of a world at several levels of detail ahead of time, into a store from which worlds
 // stream.
 
 #include <fmt/core.h>
@@ -25,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Report {
-  /// Numbers of tiles of this shard: in all, made now, and made by an earlier call.
+  /// Numbers of tiles (cubes of 8 x 8 x 8 chunks) in this shard: total, baked by this call, and baked by an earlier
+  /// call.
   size_t tiles = 0, made = 0, made_before = 0;
   std::optional<store::Merged> merged;
   uint64_t index_bytes = 0;
@@ -110,7 +111,8 @@ void print(const BakeOptions& options, const Report& report, const std::string& 
              baked.measured.sound() ? "no defects" : "with defects: the manifest lists them");
 }
 
-/// Bakes the tiles with indices from `first` to `last`. Tiles that were finished before count as done.
+/// Bakes the tiles with indices from `first` up to, but not including, `last`. Skips tiles that an earlier call has
+/// baked.
 Result<Report> bakeTiles(const store::Bakery& bakery, const std::vector<store::TileKey>& tiles,
                          const std::vector<uint64_t>& costs, size_t first, size_t last) {
   Report report;
@@ -191,7 +193,7 @@ Exit bake(const BakeOptions& options) {
     const auto [first, last] = store::tilesOfShard(*costs, shard->first, shard->second);
     const Result<Report> baked = bakeTiles(*bakery, tiles, *costs, first, last);
     if (!baked) {
-      // If another process has baked and merged the same tiles meanwhile, this is not an error.
+      // It is not an error if another process has meanwhile baked and merged the same tiles.
       const Result<bool> there = isThere();
       return there && *there ? finish() : reportError(baked.error());
     }

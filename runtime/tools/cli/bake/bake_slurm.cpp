@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Pause between queries: Slurm's controller serves many users, so it must not be queried often.
+/// Pause between queries of the jobs' state. Slurm's controller serves many users, so it must not be queried often.
 constexpr auto kBetweenLooks = std::chrono::seconds(1);
 
 void report(const BakeOptions& options, const SlurmJobs& jobs, const SlurmState& state, bool there) {
@@ -60,7 +60,7 @@ Result<SlurmBake> slurmBakeOf(const BakeOptions& options, const std::string& nam
   return bake;
 }
 
-/// The error of a Slurm command; if that command is missing, the message also names alternatives to --slurm.
+/// Converts the error of a Slurm command; if that command is missing, the message also names alternatives to --slurm.
 Error withoutSlurm(const Error& error) {
   if (error.code != Code::unsupported) return error;
   return {Code::io, error.message +

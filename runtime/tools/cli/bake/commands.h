@@ -10,16 +10,19 @@
 
 namespace sgm::cli {
 
-/// The error for a device whose meshes differ from those of other devices.
+/// The error message for a device whose meshes are not bit-identical to those of other devices, so that they must not
+/// be stored.
 inline constexpr const char* kNotExact =
     "the meshes of this device differ from those of other devices: use --backend cpu for a store";
 
 struct BakeOptions : WorldOptions {
-  std::string out;              ///< the store's folder
+  std::string out;              ///< folder of the store to bake into
   std::string levels = "0..4";  ///< range of levels of detail, in the form of readLevels()
-  std::string shard;   ///< the part of the tiles to bake, in the form of readShard(); empty: all tiles, then a merge
-  bool merge = false;  ///< merges finished shards into the store
-  uint64_t slurm = 0;  ///< number of shards to bake as jobs of Slurm; 0: bakes in this process
+  /// The shard (part of the world's tiles) to bake, in the form of readShard(). Empty: all tiles are baked and then
+  /// merged.
+  std::string shard;
+  bool merge = false;               ///< merges finished shards into the store instead of baking
+  uint64_t slurm = 0;               ///< number of shards to bake as jobs of Slurm; 0: bakes in this process
   std::vector<std::string> sbatch;  ///< options of sbatch for these jobs
   bool detach = false;              ///< submits the jobs without waiting for them
 };
@@ -27,25 +30,25 @@ Exit bake(const BakeOptions& options);
 
 struct StoreOptions {
   std::string store;
-  std::string world;  ///< the beginning of the world's name; empty: all worlds of the store
+  std::string world;  ///< beginning of the world's name; empty: all worlds of the store
   bool json = false;
 };
 Exit storeInfo(const StoreOptions& options);
 Exit storeClean(const StoreOptions& options);
 
-/// Options of the verification of a store. If WorldOptions names a grammar, chunks of that world are baked again and
-/// compared.
+/// Options of `sgm store verify`. If WorldOptions names a grammar, some chunks of that grammar's world are baked again
+/// and compared with the stored chunks.
 struct StoreVerifyOptions : WorldOptions {
   std::string store;
   std::string world;
   uint64_t samples = 100;
-  uint64_t draw = 1;  ///< seed of the random sample
+  uint64_t draw = 1;  ///< seed of the random selection of the chunks that are compared
 };
 Exit storeVerify(const StoreVerifyOptions& options);
 
 struct StoreDiffOptions {
   std::string store, other;
-  std::string from, to;  ///< the worlds to compare, by the beginning of their names; empty: the only world of the store
+  std::string from, to;  ///< beginnings of the names of the two worlds to compare; empty: the store's only world
   bool list = false;
   bool json = false;
 };

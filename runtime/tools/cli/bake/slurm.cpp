@@ -13,7 +13,7 @@
 namespace sgm::cli {
 namespace {
 
-/// The word quoted for a POSIX shell.
+/// The word in quotes, so that a POSIX shell reads it literally.
 std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -31,7 +31,8 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-/// What a command of Slurm prints to standard output and standard error. Error: unsupported if it is missing.
+/// Runs a Slurm command. Returns its output on standard output and standard error. Error: unsupported if the command is
+/// missing.
 Result<platform::ProcessOutput> runSlurm(const std::vector<std::string>& command) {
   platform::ProcessSettings settings;
   settings.program = command[0];
@@ -66,7 +67,8 @@ Result<std::string> submit(const SlurmBake& bake, const std::string& what, const
   command.push_back(script.string());
   const Result<std::string> said = outputOrError(command);
   if (!said) return said.error();
-  // Sbatch prints "NUMBER", or "NUMBER;CLUSTER" with several clusters; the site's configuration may print other lines.
+  // The command sbatch prints "NUMBER", or "NUMBER;CLUSTER" with several clusters. Depending on the site's
+  // configuration, it prints other lines as well, which are skipped.
   std::istringstream lines(*said);
   for (std::string words; std::getline(lines, words);) {
     const std::string number = words.substr(0, words.find(';'));
@@ -75,13 +77,13 @@ Result<std::string> submit(const SlurmBake& bake, const std::string& what, const
   return Error{Code::io, "sbatch printed no job number: " + *said};
 }
 
-/// Job or task numbers and their states, from lines "NUMBER_TASK STATE".
+/// Job numbers and the states of the jobs or their tasks, read from lines such as "NUMBER_TASK STATE".
 using States = std::vector<std::pair<std::string, std::string>>;
 
 Result<States> statesFrom(const std::vector<std::string>& command) {
   const Result<platform::ProcessOutput> told = runSlurm(command);
   if (!told) return told.error();
-  // The queue prints this if it knows none of them.
+  // The command squeue fails with this message if the queue contains none of the jobs.
   if (!told->exit.succeeded() && told->output.find("Invalid job id") != std::string::npos) return States();
   if (!told->exit.succeeded()) return Error{Code::io, command[0] + ": " + trimmed(told->output)};
   States states;
@@ -91,7 +93,7 @@ Result<States> statesFrom(const std::vector<std::string>& command) {
     std::string job, how;
     if (!(words >> job >> how)) continue;
     job = job.substr(0, job.find('_'));
-    // Lines that do not begin with a number are warnings of Slurm.
+    // Lines that do not begin with a job number are warnings of Slurm.
     if (isNumber(job)) states.emplace_back(job, how);
   }
   return states;
@@ -130,8 +132,8 @@ Result<SlurmJobs> submitJobs(const SlurmBake& bake) {
     own.push_back(log(what + ".txt"));
     return submit(bake, what, line, own);
   };
-  // Cancel submitted jobs if a following job could not be submitted, or their numbers could not be written to a file:
-  // otherwise they would collide with the jobs of the next call.
+  // Cancels the jobs submitted so far if a later job cannot be submitted or the job numbers cannot be stored: otherwise
+  // these jobs would run concurrently with those of the next call.
   const auto giveUp = [&](const Error& error) {
     for (const std::string& job : {jobs.verification, jobs.merge, jobs.shards}) {
       if (!job.empty()) (void)runSlurm({"scancel", job});
@@ -158,7 +160,7 @@ Result<SlurmState> stateOf(const SlurmJobs& jobs) {
   if (!ended) ended = statesFrom({"squeue", "-h", "-r", "-t", "all", "-j", all, "-o", "%i %T"});
   SlurmState state;
   state.ended = queue->empty();
-  // The queue's states are applied last, because they are more recent than the accounting's.
+  // Apply the states from the queue last, because they are more recent than those from the accounting.
   for (const States* states : std::initializer_list<const States*>{ended ? &*ended : nullptr, &*queue}) {
     for (size_t i = 0; states != nullptr && i < states->size(); ++i) {
       const auto& [job, how] = (*states)[i];

@@ -21,7 +21,7 @@ struct SlurmBake {
   std::filesystem::path folder;      ///< existing folder for the scripts, the jobs' output, and the job numbers
 };
 
-/// Job numbers that Slurm has assigned.
+/// The numbers that Slurm has assigned to the jobs of a bake.
 struct SlurmJobs {
   std::string shards, merge, verification;
   uint64_t count = 0;  ///< number of shards
@@ -29,16 +29,17 @@ struct SlurmJobs {
 
 struct SlurmState {
   uint64_t waiting = 0, running = 0,
-           failed = 0;              ///< numbers of shards; all other shards have succeeded, as far as known
-  std::string merge, verification;  ///< state of these jobs as Slurm prints it, such as "PENDING"; empty if unknown
-  bool ended = false;               ///< no job is in the queue
+           failed = 0;  ///< numbers of shards in these states; all other shards have succeeded, as far as known
+  /// State of the merge job and of the verification job, as Slurm prints it ("PENDING"); empty if unknown.
+  std::string merge, verification;
+  bool ended = false;  ///< true if none of the jobs is in the queue any more
 };
 
-// Errors of all functions: unsupported if a command of Slurm is missing; io, with the command's output, if it fails.
+// Errors of the functions below: unsupported if a command of Slurm is missing; io, with its output, if a command fails.
 
 /// Finds jobs of an earlier call, with any number of shards, that still wait or run; nullopt if there are none.
 Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake);
-/// Submits all jobs. If one cannot be submitted, cancels the others.
+/// Submits all jobs of a bake. If one job cannot be submitted, cancels the others.
 Result<SlurmJobs> submitJobs(const SlurmBake& bake);
 /// The state of the jobs. Waiting and running jobs are read from Slurm's queue, which is current. The results of ended
 /// jobs are read from Slurm's accounting, which may lag behind, or, without accounting, from the queue, which forgets

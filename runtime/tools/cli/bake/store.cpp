@@ -1,4 +1,4 @@
-// Sgm store: lists and verifies a store of baked worlds, compares two baked worlds, and removes unused files.
+// `sgm store`: lists and verifies a store of baked worlds, compares two baked worlds, and removes unused files.
 
 #include <fmt/core.h>
 
@@ -66,7 +66,8 @@ void tell(const store::Problems& problems) {
 
 Json boxJson(const IntBox& box) { return {metresJson(box.lo), metresJson(box.hi)}; }
 
-/// The member "origin" of a world's manifest; nullopt if it cannot be read.
+/// The origin of a stored world for the report: grammar, seed, settings and parameters, read from the world's manifest;
+/// nullopt if the manifest cannot be read.
 std::optional<Json> originOf(const fs::path& manifest) {
   constexpr uint64_t kMaxManifest = uint64_t{64} << 20;
   const Result<std::string> text = readFile(manifest, kMaxManifest);
@@ -92,7 +93,8 @@ std::optional<Json> originOf(const fs::path& manifest) {
   return origin;
 }
 
-/// Bakes some chunks of the world of the options again, and compares them with the store's. Adds the result to `json`.
+/// Bakes some chunks of the world that the options describe again, and compares them with the stored chunks. Adds the
+/// result to `json`.
 Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder, Json& json) {
   const OpenedWorld opened = openWorld(options);
   if (opened.program == nullptr) return opened.status;
@@ -188,7 +190,7 @@ Exit storeVerify(const StoreVerifyOptions& options) {
   }
   Exit status = Exit::done;
   Json json = Json::object();
-  // Report wrong options before reading the whole store.
+  // Bake again first, so that wrong options are reported before the whole store is read.
   if (!options.file.empty()) status = bakeAgain(options, folder, json);
   if (status == Exit::usage || status == Exit::backend) return status;
   Json all = Json::array();

@@ -9,8 +9,8 @@
 
 namespace sgm::cli {
 
-/// Calls change(0 ms). If another process holds the store's lock, prints a notice and calls change again with a longer
-/// patience, which waits for the lock.
+/// Calls change(0 ms), where the argument is the time to wait for the store's lock. If another process holds the lock,
+/// prints a notice and calls change again with a longer time.
 template <class Change>
 auto inTurn(const store::Folder& store, const Change& change) {
   auto changed = change(std::chrono::milliseconds(0));

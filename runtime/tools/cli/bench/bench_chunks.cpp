@@ -1,4 +1,4 @@
-// sgm bench chunks: measures how fast this machine meshes a region of a grammar's world, for each instruction set.
+// `sgm bench chunks`: measures how fast this machine meshes a region of a grammar's world, for each instruction set.
 
 #include <fmt/core.h>
 
@@ -17,14 +17,14 @@
 namespace sgm::cli {
 namespace {
 
-/// The results for one instruction set and number of threads. Times are in milliseconds.
+/// The results for one instruction set and one number of threads. Times are in milliseconds.
 struct Row {
   std::string set;
   unsigned threads = 0;
-  /// Times for all chunks: the first run, which derives the cells, and the median of later runs, with derived cells
-  /// cached.
+  /// Times for meshing all chunks: the first run, which also derives the grammar cells, and the median of later runs,
+  /// in which derived cells are cached.
   double first = 0, median = 0;
-  /// Times of single chunks with a surface: median and maximum; only with one thread.
+  /// Times for single chunks that contain a surface: median and maximum. Measured only with one thread.
   double chunk_median = 0, chunk_most = 0;
   size_t chunks = 0, surfaces = 0, triangles = 0;
   ContentHash hash;
@@ -36,7 +36,7 @@ double medianOf(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-/// Measures one instruction set with one number of threads.
+/// Measures meshing with one instruction set and one number of threads.
 class Contest {
  public:
   Contest(const OpenedWorld& opened, const BenchChunksOptions& options, std::string set, unsigned threads)
@@ -56,7 +56,7 @@ class Contest {
     backend_ = std::move(*backend);
     const Result<std::pmr::vector<ChunkKey>> keys = chunksOfRegion(world_, region, options_.level, options_.max_chunks);
     if (!keys) return keys.error();
-    // The same requests as a streamed world makes.
+    // Request the chunks in the form in which a streamed world requests them.
     for (const ChunkKey& key : *keys) requests_.push_back({key, 0, Neighbourhood{}, false, false});
 
     Result<double> took = meshAll();
@@ -163,7 +163,7 @@ Exit benchChunks(const BenchChunksOptions& options) {
     for (const unsigned count : threads) {
       Result<Row> row = Contest(opened, options, set.kernels->name, count).run(opened.region);
       if (!row) return reportError(row.error());
-      // On a machine with one processor, the row for all processors repeats the row for one thread.
+      // On a machine with one processor, skip the row for all processors, since it would repeat the row for one thread.
       if (count != 1 && row->threads == 1) continue;
       rows.push_back(std::move(*row));
     }

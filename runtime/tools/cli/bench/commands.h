@@ -1,5 +1,5 @@
 #pragma once
-// `sgm bench chunks`.
+// The options of `sgm bench chunks`.
 
 #include <cstdint>
 

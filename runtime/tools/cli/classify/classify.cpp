@@ -1,4 +1,4 @@
-// Sgm classify: classifies a mesh as a cave, a cloud, a building, or unknown.
+// `sgm classify`: classifies a mesh as a cave, a cloud, a building, or unknown.
 
 #include <fmt/core.h>
 
@@ -31,9 +31,9 @@ Exit printOrReportError(const Result<std::string>& text) {
   return Exit::done;
 }
 
-/// The report of a mesh file.
+/// Classifies a mesh file, and returns the text to print.
 Result<std::string> classifyFile(const ClassifyOptions& options) {
-  // Open the base before reading untrusted input.
+  // Open the database of reference histograms before reading untrusted input.
   const Result<masters::OpenedBase> base = mastersOf(options.masters);
   if (!base) return base.error();
   const Result<asset::TriangleMesh> mesh = readMeshFile(options.file);

@@ -1,4 +1,4 @@
-// Sgm inspect: the process that reads uploads of the metrics service. It restricts itself before it reads, opens no
+// `sgm inspect`: the process that reads uploads of the metrics service. It restricts itself before it reads, opens no
 // file but the database of reference histograms, and writes its result once, at the end.
 
 #include "tools/cli/classify/inspect.h"
@@ -14,9 +14,10 @@
 namespace sgm::cli {
 namespace {
 
-/// For any file that the process writes: more than an answer or a base needs.
+/// Maximum size of a file that the process may write: more than the result or a database of reference histograms needs.
 constexpr uint64_t kMaxFileBytes = uint64_t{256} << 20;
-/// For its streams, a base with its journal, and files that libraries open briefly.
+/// Maximum number of open files: the standard streams, a database with its journal, and files that libraries open
+/// briefly.
 constexpr uint64_t kMaxDescriptors = 32;
 constexpr int kStandardInput = 0, kStandardOutput = 1;
 

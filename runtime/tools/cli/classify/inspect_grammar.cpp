@@ -14,8 +14,8 @@
 namespace sgm::cli {
 namespace {
 
-/// Maximum number of chunks. `sgm classify` has the same maximum if no region is given; here it also applies to a given
-/// region.
+/// Maximum number of chunks that are meshed. `sgm classify` has the same maximum if no region is given; here it also
+/// applies to a given region.
 constexpr uint64_t kMaxChunks = 4096;
 
 Json diagnosticsJson(const std::vector<Diagnostic>& diagnostics) {

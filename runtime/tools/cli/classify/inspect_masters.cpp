@@ -1,4 +1,4 @@
-// The reference histograms of the metrics service: reads and stores them.
+// Reads and stores the reference histograms of the metrics service.
 
 #include <filesystem>
 
@@ -10,7 +10,7 @@
 namespace sgm::cli {
 namespace {
 
-/// The key as JSON; unlike toJson(), its numbers keep all digits.
+/// The key as JSON in the form that readSet() reads; unlike in toJson(), a length or density of 0 is not null.
 Json keyJson(const measure::MasterKey& key) {
   return {{"mode", measure::nameOf(key.mode)},
           {"bins", key.bins},

@@ -1,4 +1,4 @@
-// The report on an upload: its measures, its class, and a preview.
+// Makes the report on an upload: its measures, its class, and a preview mesh.
 
 #include <algorithm>
 #include <utility>
@@ -20,9 +20,10 @@ using measure::MeshMeasures;
 /// The mesh of an upload, and what is known about its source.
 struct Subject {
   asset::TriangleMesh mesh;
-  std::optional<measure::Cut> cut;  ///< for a region: the box at whose faces the mesh may be cut
-  double density = 0;               ///< for a region: grid cells per metre
-  Json known, more;                 ///< additional members for the object "measures", and for the report itself
+  /// Set for a region of a grammar: the region's box, whose faces may cut the surface open.
+  std::optional<measure::Cut> cut;
+  double density = 0;  ///< set for a region of a grammar: grid cells per metre
+  Json known, more;    ///< known: additional members of the object "measures"; more: additional members of the report
 };
 
 Json previewJson(const Preview& preview, size_t of_triangles) {
@@ -51,7 +52,7 @@ std::string nameOf(const InspectOptions& options) {
   return options.name.empty() ? "upload." + options.kind : options.name;
 }
 
-/// The JSON pointer to a place in a glTF file that the message names; empty if it names none.
+/// The JSON pointer to the place in a glTF file that an error message names; empty if it names none.
 std::string placeOf(const std::string& message) {
   constexpr std::string_view kAccessor = "accessor ";
   const std::string_view pointer = asset::pointerIn(message);
@@ -62,7 +63,7 @@ std::string placeOf(const std::string& message) {
 
 InspectAnswer refused(const InspectProblem& problem) { return {toJson(problem), {}}; }
 
-/// Measures and classifies a mesh, and makes its preview. The only errors are the machine's (memory), not the upload's.
+/// Measures and classifies a mesh, and makes its preview. Reports a problem only if memory is exhausted.
 InspectAnswer judged(const Subject& subject, const InspectOptions& options, const Result<masters::OpenedBase>& base,
                      const Stopwatch& watch) {
   const asset::TriangleMesh& mesh = subject.mesh;
@@ -71,7 +72,7 @@ InspectAnswer judged(const Subject& subject, const InspectOptions& options, cons
   measure::MeshSettings settings;
   settings.cut = subject.cut;
 
-  // The three tasks are independent of each other.
+  // Measuring, classifying and simplifying are independent, so they run concurrently.
   std::optional<Result<MeshMeasures>> measures;
   std::optional<Result<Classified>> classified;
   Preview preview;

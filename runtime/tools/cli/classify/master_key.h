@@ -1,5 +1,5 @@
 #pragma once
-// Prints keys of reference histograms, and opens the file that an option names.
+// Text for keys of reference histograms, and the database that an option names.
 
 #include <string>
 

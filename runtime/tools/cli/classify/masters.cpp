@@ -1,4 +1,4 @@
-// Sgm masters: builds the reference histograms with which `classify` compares meshes, and lists them.
+// `sgm masters`: builds the reference histograms with which `classify` compares meshes, and lists them.
 
 #include <fmt/core.h>
 
@@ -12,7 +12,7 @@
 namespace sgm::cli {
 namespace {
 
-/// The classes that have reference histograms of a key, with the number of histograms of each class.
+/// The class names of the reference histograms, with the number of histograms of each class.
 std::vector<std::pair<std::string, size_t>> classesOf(const std::vector<measure::Master>& masters) {
   std::vector<std::pair<std::string, size_t>> classes;
   for (const measure::Master& master : masters) {
@@ -68,7 +68,7 @@ Exit buildMasters(const MastersBuildOptions& options) {
   if (out.empty() && options.emit.empty()) {
     return reportError(Exit::usage, "neither $XDG_DATA_HOME nor $HOME is set: name the database with --out");
   }
-  // Report an unwritable file before the long work.
+  // Check first that the output file is writable, since building takes long.
   if (!out.empty()) {
     if (options.out.empty()) {
       if (const Result<masters::OpenedBase> there = mastersOf({}); !there) return reportError(there.error());

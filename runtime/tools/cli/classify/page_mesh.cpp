@@ -12,7 +12,7 @@ namespace {
 
 using Position = std::array<float, 3>;
 
-/// Coordinates beyond this count as non-finite, as in `sgm measure`.
+/// Triangles with coordinates of larger magnitude are ignored as non-finite, as in `sgm measure`.
 constexpr double kFarthest = 1e37;
 
 bool isPlace(const asset::Point& p) {
@@ -29,8 +29,8 @@ void thinOut(std::vector<uint32_t>& indices) {
   indices.resize(3 * kept);
 }
 
-/// Merges points at the same place. Otherwise the simplifier would treat them as the two sides of a seam, which it must
-/// not move, and it could not collapse any edge of a mesh whose triangles share no points.
+/// Merges points at the same position. Otherwise the simplifier would treat them as the two sides of a seam, which it
+/// must not move, and it could not collapse any edge of a mesh whose triangles share no points.
 void weld(std::vector<uint32_t>& indices, std::vector<Position>& positions) {
   std::vector<uint32_t> remap(positions.size());
   const size_t count = meshopt_generateVertexRemap(remap.data(), indices.data(), indices.size(), positions.data(),
@@ -57,7 +57,7 @@ std::vector<Position> normalsOf(const std::vector<uint32_t>& indices, const std:
   return normals;
 }
 
-/// Drops triangles that the simplifier has turned over: other triangles cover the surface there.
+/// Removes triangles whose orientation the simplifier has reversed: other triangles cover the surface there.
 void dropFolded(std::vector<uint32_t>& indices, const std::vector<Position>& positions,
                 const std::vector<Position>& normals) {
   size_t kept = 0;
@@ -72,8 +72,8 @@ void dropFolded(std::vector<uint32_t>& indices, const std::vector<Position>& pos
   if (kept > 0) indices.resize(kept);
 }
 
-/// Collapses edges first, which rarely turns a triangle over. If the mesh has too many separate parts to keep each, its
-/// points are then clustered, which collapses some parts to specks.
+/// Collapses edges first, which rarely reverses a triangle. If the mesh has too many separate parts to keep each, its
+/// points are then clustered, which reduces some parts to tiny remnants.
 void simplify(std::vector<uint32_t>& indices, std::vector<Position>& positions) {
   constexpr size_t kMost = 3 * kMaxPreviewTriangles;
   constexpr float kAnyError = 1;

@@ -1,5 +1,5 @@
 #pragma once
-// Simplifies any mesh to a small one, for a preview on a web page.
+// Simplifies a mesh of any size for a preview on a web page.
 
 #include <array>
 #include <cstdint>
@@ -13,17 +13,17 @@ namespace sgm::cli {
 inline constexpr size_t kMaxPreviewTriangles = 60'000;
 
 struct Preview {
-  asset::Point origin;                          ///< in the coordinates of the mesh; positions are relative to it
-  std::vector<std::array<float, 3>> positions;  ///< finite; triangles use every position
-  /// Three for each triangle; at most kMaxPreviewTriangles triangles, unless the mesh cannot be simplified so far.
+  asset::Point origin;                          ///< point of the mesh to which `positions` are relative
+  std::vector<std::array<float, 3>> positions;  ///< finite vertex positions, each used by a triangle
+  /// three vertex indices per triangle; at most kMaxPreviewTriangles triangles
   std::vector<uint32_t> indices;
-  std::array<float, 3> low{}, high{};  ///< bounds of the positions
+  std::array<float, 3> low{}, high{};  ///< minimum and maximum corner of the bounding box of `positions`
 };
 
-/// The preview of the triangles with finite corners. Empty if there are none.
+/// A simplified mesh of the triangles with finite corners. Empty if there are none.
 Preview previewOf(const asset::TriangleMesh& mesh);
 
-/// The preview as bytes: "SGMPREV1", uint32 number of points, uint32 number of triangles, positions, indices;
+/// Serializes a preview: "SGMPREV1", uint32 number of points, uint32 number of triangles, positions, indices;
 /// little-endian.
 std::string bytesOf(const Preview& preview);
 

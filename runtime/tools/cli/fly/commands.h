@@ -12,28 +12,29 @@
 namespace sgm::cli {
 
 struct FlyOptions : WorldOptions {
-  std::string path;  ///< a JSON file; empty: the flight plans its own path
+  std::string path;  ///< JSON file with the points of the path; empty: the path is planned automatically
   double speed = 20;
   uint64_t frames = 600;
   uint64_t teleports = 0;
-  double edits = 0;      ///< number of digs per second of the path
-  bool animate = false;  ///< animates parameters during the flight
-  /// Names of the parameters to animate; empty: all that the grammar declares animated.
+  double edits = 0;      ///< digs (edits of the world) per second of the path
+  bool animate = false;  ///< animates grammar parameters during the flight
+  /// Names of the parameters to animate; empty: all parameters that the grammar declares animated.
   std::vector<std::string> animated;
   bool check = false, unpaced = false, compare = false;
-  bool measure = false;  ///< measures every meshed chunk
+  bool measure = false;  ///< measures the mesh of every chunk (SGM_WORLD_MEASURE)
   int top_level = 6;
-  double finest = 24, finest_margin = 6, view = 600;  ///< distances in metres; see the command's help
+  /// In metres: distance drawn at level 0 (the finest), its streaming margin, view distance.
+  double finest = 24, finest_margin = 6, view = 600;
   uint64_t mesh_mb = 256;
   uint64_t pictures = 0;
   std::string out = "flight.png";
-  std::string light = "auto";  ///< light of the pictures, as RenderOptions::light
+  std::string light = "auto";  ///< light of the pictures: "auto", "sun", "lamp" or "none"
   bool levels = false;
-  std::string video;                ///< an .mp4 file; empty: none
-  std::string journal, cache;       ///< the file of the edit journal, and the folder of the disk cache; empty: none
-  std::vector<std::string> stores;  ///< folders of baked worlds
+  std::string video;                ///< .mp4 file to write; empty: none
+  std::string journal, cache;       ///< file of the edit journal; folder of the disk cache; empty: none
+  std::vector<std::string> stores;  ///< store folders with baked worlds
   bool serve = false, keep_serving = false;
-  ServingOptions serving;  ///< used if `serve` is set
+  ServingOptions serving;  ///< settings of the service that watches the world; used if `serve` is set
 };
 Exit fly(const FlyOptions& options);
 

@@ -1,4 +1,4 @@
-// sgm fly: streams a world along a path, and reports the quality of the streaming.
+// `sgm fly`: streams a world along a path, and reports the quality of the streaming.
 
 #include <fmt/core.h>
 
@@ -35,7 +35,7 @@ template <class T, auto End>
 using Owner = std::unique_ptr<T, EndWith<End>>;
 
 struct Scene {
-  /// Suppresses the world's warnings while the command itself reports the same problem as an error.
+  /// Suppresses the world's log messages while the command itself reports the same problem as an error.
   std::atomic<bool> quiet = false;
   Owner<sgm_runtime, sgm_runtime_destroy> runtime;
   Owner<sgm_grammar, sgm_grammar_destroy> grammar;
@@ -53,13 +53,13 @@ Exit reportApiError(const sgm_error& error) {
   return reportError(status, error.message);
 }
 
-/// Prints warnings of the world to stderr: a damaged journal, an unwritable folder.
+/// Log callback of the world: prints warnings, such as a damaged journal or an unwritable folder, to stderr.
 void tellWarning(void* scene, sgm_log_level level, const char* message) {
   if (level >= SGM_LOG_WARNING && !static_cast<Scene*>(scene)->quiet)
     std::fprintf(stderr, "sgm: warning: %s\n", message);
 }
 
-/// Writes all edits to the journal. On failure, the caller prints the error.
+/// Flushes all edits to the journal file. If this fails, the caller prints the error.
 Result<void> keepEdits(Scene& scene) {
   scene.quiet = true;
   sgm_error error = SGM_ERROR_INIT;
@@ -68,7 +68,8 @@ Result<void> keepEdits(Scene& scene) {
   return {};
 }
 
-/// Makes the scene of the options through the public interface, and prints the grammar's messages.
+/// Creates the scene that the options describe, through the public interface, and prints diagnostics of the grammar.
+/// by_distance: whether the distance alone selects level 0.
 Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime_desc runtime_desc = SGM_RUNTIME_DESC_INIT;
@@ -117,13 +118,14 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
 
   sgm_world_desc world_desc = SGM_WORLD_DESC_INIT;
   world_desc.top_level = options.top_level;
-  // The margin lets chunks that arrive while the viewer moves on still lie within options.finest.
+  // Level 0 is requested up to a margin beyond options.finest, so that chunks arrive before the viewer is within
+  // options.finest of them.
   world_desc.finest_distance = options.finest + options.finest_margin;
   world_desc.view_distance = options.view;
   world_desc.mesh_bytes = options.mesh_mb << 20;
   world_desc.collider_distance = kWalkableDistance;
   if (!options.journal.empty()) world_desc.journal = options.journal.c_str();
-  // The second flight must mesh all chunks itself, to be comparable.
+  // The second flight (by_distance) must mesh all chunks itself to be comparable, so it gets no cache.
   if (!options.cache.empty() && !by_distance) world_desc.cache_folder = options.cache.c_str();
   std::vector<const char*> stores;
   for (const std::string& store : options.stores) stores.push_back(store.c_str());
@@ -148,9 +150,9 @@ Result<FlightPath> pathOf(const FlyOptions& options, const Scene& scene) {
   return FlightPath::automatic(scene.field.get(), scene.grammar.get(), flight);
 }
 
-/// The hash of the level-0 chunks around the flight's last place.
+/// The hash of the level-0 chunks around the flight's last position.
 Result<uint64_t> hashAround(const Scene& scene, const FlightPlace& place) {
-  // The box, extended to whole chunks, must not exceed the world's limits.
+  // Clamp the position, so that the box, extended to whole chunks, stays within the range of coordinates.
   const int64_t farthest = std::numeric_limits<int32_t>::max() - int64_t{SGM_CHUNK_CELLS} * scene.cell - kHashedAround;
   int32_t low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -184,7 +186,7 @@ struct FlightResult {
   Exit status = Exit::done;
 };
 
-/// Makes a name under which the service can watch a world: other characters than those allowed become '_'.
+/// Makes the name under which the service lists a world: characters that are not allowed become '_'.
 std::string worldName(std::string_view text) {
   constexpr size_t kLongest = 64;
   std::string name(text.substr(0, kLongest));
@@ -207,7 +209,7 @@ Result<Serving> serveWorld(const FlyOptions& options, const Scene& scene) {
   return serving;
 }
 
-/// Flies once. pictures: null for the second flight, in which the distance alone selects level 0.
+/// Runs one flight. pictures: null for the second flight, in which the distance alone selects level 0.
 FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   Scene scene;
   const bool serves = options.serve && pictures != nullptr;
@@ -249,7 +251,7 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   if (pictures != nullptr) watch.pictured = [&](uint64_t frame) { return pictures->wants(frame); };
   Result<FlightReport> report = sgm::cli::fly(scene.world.get(), *path, settings, watch);
   bar.reset();
-  // Write the journal before everything else that may fail, since the dug edits exist only in this process.
+  // Write the journal before any step that may fail, since the edits exist only in this process until then.
   const Result<void> kept = keepEdits(scene);
   if (!kept && !report) return {{}, reportError(kept.error())};
   if (signals && signals->came() && !report) {

@@ -9,12 +9,12 @@
 namespace sgm::cli {
 namespace {
 
-constexpr uint64_t kFramesAPicture = 2;  // frames of the flight for each picture of the video
-constexpr uint64_t kFramesALook = 60;    // frames from one measurement of the light to the next
-// Metres from one frame to the next that count as a teleport; the fastest flight stays below.
+constexpr uint64_t kFramesAPicture = 2;  // number of flight frames per video picture
+constexpr uint64_t kFramesALook = 60;    // number of frames between two measurements of the light
+// A longer movement between two frames, in metres, counts as a teleport; regular flight is always slower.
 constexpr double kLeap = 20;
 
-/// The world, with its edits and animated parameters, for measuring daylight.
+/// The world with its edits and animated parameters, in the form in which daylight is measured.
 LitWorld litWorld(const FlownScene& scene) {
   sgm_domain_info domain = SGM_DOMAIN_INFO_INIT;
   sgm_grammar_domain(scene.grammar, &domain);
@@ -49,11 +49,11 @@ bool FlyPictures::inSheet(uint64_t frame) const {
 
 bool FlyPictures::inVideo(uint64_t frame) const { return video_ != nullptr && frame % kFramesAPicture == 0; }
 
-/// Measures the light at fixed frames, so that the same flight has the same light on a sheet and in a video.
+/// Measures the light at fixed frame numbers, so that a sheet and a video of the same flight have the same light.
 Result<void> FlyPictures::look(const FlownScene& scene, uint64_t frame, const FlightPlace& place) {
   const bool leapt = last_ && glm::distance(last_->position, place.position) > kLeap;
   last_ = place;
-  // Between measurements, the reach of the lamp and the haze change gradually.
+  // Smooth the depth between measurements, so that the reach of the lamp and the haze change gradually.
   depth_ += (seen_depth_ - depth_) / static_cast<double>(kFramesALook);
   if (frame % kFramesALook != 0 && !leapt) return {};
   CameraPlace camera;
@@ -64,10 +64,12 @@ Result<void> FlyPictures::look(const FlownScene& scene, uint64_t frame, const Fl
   camera.aspect = static_cast<double>(request.width) / request.height;
   LitWorld world = litWorld(scene);
   const std::optional<Light> wanted = lightNamed(options_.light);
-  if (wanted || options_.levels) world.roofless = false;  // the daylight is not used then, so it need not be measured
+  // No daylight is needed if an option fixes the light, or if levels are drawn in even light. Setting roofless to false
+  // makes lookOut() skip its measurement.
+  if (wanted || options_.levels) world.roofless = false;
   const Result<Outlook> outlook = lookOut(world, camera);
   if (!outlook) return outlook.error();
-  // If the camera is inside rock, keep the previous light.
+  // Keep the previous light while the camera is inside rock.
   if (outlook->buried && frame > 0) return {};
   seen_depth_ = outlook->depth;
   if (leapt || frame == 0) depth_ = seen_depth_;

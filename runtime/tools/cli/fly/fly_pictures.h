@@ -15,28 +15,28 @@
 
 namespace sgm::cli {
 
-/// The scene of the flight.
+/// The grammar and the streamed world that the flight draws.
 struct FlownScene {
   const sgm_grammar* grammar = nullptr;
   sgm_world* world = nullptr;
 };
 
-/// Number of drawn pictures by their light.
+/// Numbers of pictures drawn with each kind of light.
 struct PictureLights {
   uint64_t sun = 0, lamp = 0, none = 0;
 };
 
-/// Draws evenly spaced frames for the sheet, and every second frame for the video.
+/// Draws pictures of a flight: evenly spaced frames for the contact sheet, and every second frame for the video.
 class FlyPictures {
  public:
   explicit FlyPictures(const FlyOptions& options) : options_(options) {}
 
-  /// Opens the files, the device and the encoder before the flight, so that their errors appear before a long flight.
+  /// Opens the output files, the device and the video encoder, so that their errors appear before the long flight.
   Result<void> begin();
   /// Whether the sheet or the video contains this frame.
   bool wants(uint64_t frame) const { return inSheet(frame) || inVideo(frame); }
-  /// Must be called for every frame. Returns false if the frame cannot be drawn or written; finish() then returns the
-  /// error.
+  /// Draws the frame if it is wanted; must be called for every frame. Returns false if the frame cannot be drawn or
+  /// written; finish() then returns the error.
   bool take(const FlownScene& scene, uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn);
   Result<void> finish();
   const PictureLights& lights() const { return lights_; }
@@ -54,7 +54,7 @@ class FlyPictures {
   std::vector<Image> images_;
   Light light_ = Light::sun;  ///< light of the current picture
   SteadyLight steady_;
-  /// Typical distance to visible surfaces, metres: at the last measurement, and the smoothed value used for drawing.
+  /// Typical distance to visible surfaces, metres: at the last measurement, and smoothed over frames for drawing.
   double seen_depth_ = 1, depth_ = 1;
   std::optional<FlightPlace> last_;
   PictureLights lights_;

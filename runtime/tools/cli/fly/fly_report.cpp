@@ -8,7 +8,8 @@
 namespace sgm::cli {
 namespace {
 
-/// Maximum number of changed pictures until a dig is drawn: the one in preparation when it was made, and the next.
+/// Maximum number of commits (updates of the picture) until a dig must be visible: the commit in preparation when the
+/// dig was made, and the next commit.
 constexpr double kMaxDigFrames = 2;
 
 double shareOf(uint64_t part, uint64_t whole) {

@@ -13,22 +13,22 @@ namespace sgm::cli {
 
 struct Flown {
   FlightReport report;
-  uint64_t hash = 0;                ///< hash of the level-0 chunks around the last place, when all work is done
-  uint64_t runtime_peak_bytes = 0;  ///< peak of all memory that the runtime allocated
-  uint64_t frame_bytes = 0;         ///< budget of mesh bytes that one frame may receive
-  uint64_t fields = 0;              ///< number of fields with animated parameters that were passed to the world
-  uint64_t fields_drawn = 0;        ///< number of these fields that were drawn
-  sgm_backend_info backend = SGM_BACKEND_INFO_INIT;  ///< state at the end
+  uint64_t hash = 0;                ///< hash of the level-0 chunks around the last position, after all work is done
+  uint64_t runtime_peak_bytes = 0;  ///< peak of the memory that the runtime has allocated
+  uint64_t frame_bytes = 0;         ///< maximum number of mesh bytes that one frame may receive
+  uint64_t fields = 0;              ///< number of field updates with animated parameters that were passed to the world
+  uint64_t fields_drawn = 0;        ///< number of these updates that were drawn
+  sgm_backend_info backend = SGM_BACKEND_INFO_INIT;  ///< state of the backend after the flight
   PictureLights lights;
-  std::optional<sgm_world_measures> measures;  ///< measures of the drawn chunks at the end, if requested
+  std::optional<sgm_world_measures> measures;  ///< measures of the chunks drawn at the end, if requested
   std::optional<Error> edits_lost;             ///< set if the journal does not contain all edits
 };
 
-/// by_distance: report of a second flight in which the distance alone selects level 0, for comparison.
+/// Report as JSON. by_distance: report of a second flight for comparison, in which the distance alone selects level 0.
 Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<FlightReport>& by_distance);
 void print(const FlyOptions& options, const Flown& flown, const std::optional<FlightReport>& by_distance);
 
-/// Describes the first violated guarantee; nullopt if there is none.
+/// Describes the first guarantee of the runtime that the flight found violated; nullopt if there is none.
 std::optional<std::string> defectOf(const Flown& flown);
 
 }  // namespace sgm::cli

@@ -1,4 +1,4 @@
-// Sgm check: checks grammars, and, with --expect, whether their worlds satisfy their expectations.
+// `sgm check`: checks grammars, and, with --expect, whether their worlds satisfy their expectations.
 
 #include <fmt/core.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t kMaxSeeds = 10;  ///< maximum number of seeds that a message names
 
-/// Resources for --expect, shared by all checked files.
+/// Resources for `sgm check --expect`, shared by all checked files.
 struct ReportContext {
   std::unique_ptr<JobSystem> jobs;
   std::unique_ptr<Backend> backend;

@@ -1,5 +1,5 @@
 #pragma once
-// The commands for the text of grammars.
+// Commands on the text of grammars: `sgm check`, `sgm fmt` and `sgm explain`.
 
 #include <cstdint>
 #include <string>

@@ -62,7 +62,7 @@ std::string spreadText(Measure measure, const std::vector<Measured>& measured) {
                             numberText(measure, spread.most), unitOf(measure));
 }
 
-/// The result of one statement with one seed.
+/// The outcome of one `report` or `expect` statement with one seed, and texts that describe it.
 struct Said {
   const Program& program;
   const Expectation& statement;
@@ -80,8 +80,8 @@ struct Said {
   }
 };
 
-/// For measures that count pieces, text such as "the smallest: 0.25 m3 in 1,2,3 to 2,3,4 m; ..."; nullopt if there are
-/// no pieces.
+/// Describes the pieces that a measure counts: "the smallest are 0.25 m3 in 1,2,3 to 2,3,4 m; ...". nullopt if there
+/// are none.
 std::optional<std::string> piecesText(const Measured& measured) {
   constexpr size_t kMaxNamed = 4;
   const std::vector<MeasuredPiece>& pieces = measured.pieces;
@@ -117,7 +117,7 @@ Diagnostic diagnosticOf(const Said& said) {
     const Error& error = *said.outcome.error;
     d.message = fmt::format("`{}` cannot be evaluated: {}", measure, error.message);
     if (error.line > 0) d.notes.push_back(fmt::format("at line {}, column {}", error.line, error.column));
-    // If the evaluation failed, the region may be unknown.
+    // The region is empty if the evaluation failed before the region was known.
     if (!said.outcome.region.empty()) d.notes.push_back(said.where());
     return d;
   }
@@ -239,7 +239,7 @@ ExpectationSummary sayExpectations(const CompileResult& compiled, const WorldOpt
       } else if (said.outcome.holds()) {
         print(said);
       } else {
-        // Keeps the messages in the order of the statements if stdout and stderr go to the same place.
+        // Flush, so that reports precede the following error messages if stdout and stderr have the same destination.
         std::fflush(stdout);
         fmt::print(stderr, "{}", renderDiagnostic(diagnosticOf(said), program.modules[0].text));
       }

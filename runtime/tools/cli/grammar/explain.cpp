@@ -1,4 +1,4 @@
-// Sgm explain: reports which rules made the surface or solid at a place.
+// `sgm explain`: reports which rules made the surface or solid at a place.
 
 #include "query/explain.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kNearSurface = 64 * kUnitsPerMetre;
 
-/// The word for a kind of shape in the grammar language.
+/// The keyword of the grammar language for a kind of shape.
 std::string_view wordFor(ShapeKind kind) {
   switch (kind) {
     case ShapeKind::sphere:
@@ -83,7 +83,7 @@ std::string measureText(const ExplainedNode& node) {
   }
 }
 
-/// The explanation of one place.
+/// The explanation of one place, with the names that its printing needs.
 struct Answer {
   const Program& program;
   std::string_view file;
@@ -230,7 +230,8 @@ Exit explain(const ExplainOptions& options) {
       p[axis] = saturate(static_cast<int64_t>(std::llround((**surface).position[static_cast<size_t>(axis)])));
     Result<Answer> answer = answerAt(p);
     if (!answer) return reportError(answer.error());
-    // The place is rounded to units and may lie on either side of the surface; report the surface's material and tag.
+    // Rounding the place to units may move it to either side of the surface, so take the material and tag from the
+    // surface itself.
     answer->found.material = (**surface).material;
     answer->found.tag = (**surface).tag;
     there.emplace(std::move(*answer));

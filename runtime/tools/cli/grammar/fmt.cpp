@@ -1,4 +1,4 @@
-// Sgm fmt: formats grammars in the canonical layout.
+// `sgm fmt`: formats grammars in the canonical layout.
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-// sgm backends: lists devices for computing and for drawing.
+// `sgm backends`: lists devices for computing and for drawing.
 
 #include <fmt/core.h>
 
@@ -72,7 +72,7 @@ void printDevice(const cuda::DeviceInfo& device) {
              lack.empty() ? "usable, exact" : "not usable: " + lack);
 }
 
-/// Prints a list of devices, or the error that prevented listing them.
+/// Prints the devices of one kind, or the error that prevented listing them.
 template <class Device>
 void printDevices(const char* kind, const Result<std::vector<Device>>& devices) {
   fmt::print("\n{} devices:\n", kind);

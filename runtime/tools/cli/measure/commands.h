@@ -13,23 +13,29 @@
 namespace sgm::cli {
 
 struct MeasureOptions : WorldOptions {
-  double weld = 0;  ///< distance in metres up to which vertices of a file are merged; 0: only equal positions
+  double weld = 0;  ///< maximum distance in metres of vertices of a file that are merged; 0: only equal positions
   uint32_t bins = 33;
   std::string mode = "corrected";
-  double curvature_length = 1;  ///< radius in metres of the ball that is at 3/4 of the range of curvatures
+  /// Length L of HistogramMode::curvature, metres. The edges of a ball with radius L lie at 3/4 of the histogram's
+  /// range.
+  double curvature_length = 1;
   bool unique_edges = false;
-  std::optional<double> cubes;  ///< edge in metres of the cubes by which the volume is measured as well; empty: none
+  /// Edge in metres of the cubes for an additional measurement of the volume; empty: none.
+  std::optional<double> cubes;
   bool no_self_intersections = false;
-  bool strict = false;                             ///< fails if the mesh is not valid
-  std::vector<std::string> of_grammars, of_files;  ///< given options that only grammars or only files have
-  bool field = false;                              ///< also compares with the grammar's field
-  int levels = 0;                                  ///< also compares this many pairs of levels, from `level` on
-  bool drawing = false;                            ///< also measures the cost of drawing
-  std::optional<double> texels;                    ///< also the texel density of a texture of this resolution
-  std::string against;                             ///< also the distance to this file's mesh; empty: none
-  std::string from, to;                            ///< of a path through the void, points in metres; both or neither
-  std::optional<double> radius;  ///< metres: of the agent; if given, or with a path, the void is measured
-  SandboxOptions sandbox;        ///< for the reading of mesh files
+  bool strict = false;  ///< exits with an error if the mesh is not valid
+  /// Options on the command line that apply only to grammars, or only to mesh files.
+  std::vector<std::string> of_grammars, of_files;
+  bool field = false;            ///< compares the mesh with the field of its grammar
+  int levels = 0;                ///< number of pairs of successive levels to compare, from `level` on
+  bool drawing = false;          ///< estimates the cost of drawing
+  std::optional<double> texels;  ///< resolution of the texture whose texel density is measured
+  std::string against;           ///< mesh file to which the distance is measured; empty: none
+  std::string from, to;          ///< end points in metres of a path through the void; both or neither
+  /// Radius in metres of the agent that moves along the path. If radius or `from` is set, the void is measured instead
+  /// of the surface.
+  std::optional<double> radius;
+  SandboxOptions sandbox;  ///< limits of the process that reads mesh files
 };
 Exit measureMesh(const MeasureOptions& options);
 

@@ -1,4 +1,4 @@
-// Sgm measure: measures a mesh file or a region of a grammar's world, and checks whether the mesh is the surface of a
+// `sgm measure`: measures a mesh file or a region of a grammar's world, and checks whether the mesh is the surface of a
 // solid.
 
 #include <fmt/core.h>
@@ -29,19 +29,20 @@ measure::MeshSettings settingsOf(const MeasureOptions& options) {
   return settings;
 }
 
-/// The mesh to measure, with the sections that go into its report.
+/// The mesh to measure, and the parts of its report that are known before.
 struct Subject {
   const asset::TriangleMesh& mesh;
-  std::optional<measure::Cut> cut;  ///< for a region: the box at whose faces the mesh may be cut
-  Json json;                        ///< properties of the mesh's source
-  std::string text;                 ///< the same properties as text, printed after the mesh's name
-  std::string_view unit;            ///< as for textOf()
-  std::vector<std::pair<std::string, Section>> sections;  ///< optional sections, by their names in JSON
+  /// Set for a region of a grammar: the region's box, whose faces may cut the surface open.
+  std::optional<measure::Cut> cut;
+  Json json;              ///< properties of the source of the mesh
+  std::string text;       ///< the same properties as text, printed after the mesh's name
+  std::string_view unit;  ///< unit of length in the text: " m", or empty if unknown
+  std::vector<std::pair<std::string, Section>> sections;  ///< optional sections with their names in JSON
 };
 
 constexpr char kSound = '+', kUnsound = '-';
 
-/// Measures the mesh and returns the text to print, which begins with kSound or kUnsound.
+/// Measures the mesh. Returns the text to print, preceded by the character kSound or kUnsound.
 Result<std::string> reportOf(const Subject& subject, const MeasureOptions& options, JobSystem& jobs,
                              const Stopwatch& watch) {
   measure::MeshSettings settings = settingsOf(options);
@@ -73,7 +74,7 @@ Exit printed(const Result<std::string>& report, bool strict) {
   return strict && report->front() == kUnsound ? Exit::input : Exit::done;
 }
 
-/// Measures the distance to another mesh. other: mesh of the file that --against names.
+/// Measures the distance between two meshes. other: mesh of the file that --against names.
 Result<Section> against(const asset::TriangleMesh& mesh, asset::TriangleMesh other, const MeasureOptions& options,
                         JobSystem& jobs) {
   for (measure::Point& p : other.points) p = p + (other.origin - mesh.origin);
@@ -111,7 +112,7 @@ Result<std::string> measureFile(const MeasureOptions& options) {
   return reportOf(subject, options, **jobs, watch);
 }
 
-/// Measures the distance between each two successive levels of the region, extended to whole chunks.
+/// Measures the distance between the meshes of each two successive levels. The region is extended to whole chunks.
 Result<Section> levelsOf(const MeasureOptions& options, const WorldField& world, Backend& backend, JobSystem& jobs,
                          const Region& region) {
   Section all;
@@ -139,7 +140,7 @@ Result<Section> levelsOf(const MeasureOptions& options, const WorldField& world,
   return all;
 }
 
-/// The seed, cell size and region from which the mesh was made.
+/// Describes the seed, cell size and region from which the mesh was made.
 std::string textOf(const WorldOptions& options, const Region& region) {
   const IntBox& extent = region.meshed.extent;
   return fmt::format(", seed {}, cells of {} m, region {},{},{}:{},{},{} m", options.seed, metres(region.cell),

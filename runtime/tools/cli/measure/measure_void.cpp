@@ -33,7 +33,8 @@ const char* nameOf(WayVerdict verdict) {
   return "apart";
 }
 
-/// Whether the search for the widest path reached its maximum radius, so that the true radius may be larger.
+/// Whether the search for the widest path reached the maximum radius that it considers, so that the path's true radius
+/// may be larger.
 bool isOpenEnded(const VoidWay& way, int32_t cell) { return way.widest >= double{kMaxClearance} * cell; }
 
 std::string widestText(const VoidWay& way, int32_t cell) {
@@ -42,7 +43,7 @@ std::string widestText(const VoidWay& way, int32_t cell) {
   return fmt::format("agents of radius below {:.4g} m pass", inMetres(way.widest));
 }
 
-/// Explains why there is no path.
+/// Explains in a sentence why there is no path from --from to --to.
 std::string whyNot(const VoidWay& way, const MeasureOptions& options, const VoidAnswer& answer, int32_t cell) {
   const auto narrow = [&](const char* option, double clearance) {
     return fmt::format("an agent of radius {:.4g} m does not fit at {}: rock is {:.4g} m away",
@@ -135,7 +136,7 @@ std::string textOf(const VoidAnswer& answer, const MeasureOptions& options, int3
   const VoidWay& way = *answer.way;
   if (way.verdict == WayVerdict::found)
     text += fmt::format("  path       {:.6g} m, {} places\n", inMetres(way.length), way.places.size());
-  // If an end of the path is in rock, there is no widest path, and the error message says so.
+  // If an end point lies in rock, there is no widest path to report: the error message says so.
   if (way.verdict == WayVerdict::from_in_rock || way.verdict == WayVerdict::to_in_rock) return text;
   return text + fmt::format("  widest     {}\n", widestText(way, cell));
 }
@@ -183,7 +184,8 @@ Exit measureVoid(const MeasureOptions& options) {
   }();
   if (!answer) return reportError(answer.error());
   const double seconds = watch.seconds();
-  // A region with too many cells to derive at once has no notes, which is not an error.
+  // Notes about omitted shapes cannot be collected if the region has too many cells to derive at once; that is not an
+  // error.
   const Result<std::vector<DeriveNote>> notes = world.notes(answer->extent, cell);
   if (!notes && notes.error().code != Code::limit) return reportError(notes.error());
   if (notes) warnOfNotes(options.file, *notes);

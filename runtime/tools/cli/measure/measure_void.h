@@ -9,8 +9,8 @@ namespace sgm::cli {
 /// Whether the options request measures of the void.
 bool asksForVoid(const MeasureOptions& options);
 
-/// Reports the connected voids of a region, and a path if --from and --to request one. Returns Exit::input if there is
-/// no such path.
+/// Reports the connected voids of a region, and a path through them if --from and --to request one. Returns Exit::input
+/// if there is no such path.
 Exit measureVoid(const MeasureOptions& options);
 
 }  // namespace sgm::cli

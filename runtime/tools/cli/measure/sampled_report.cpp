@@ -33,7 +33,7 @@ Json oneSidedJson(const measure::OneSided& d, measure::Point origin) {
           {"rms", d.rms},           {"samples", d.samples}, {"farthest", {at.x, at.y, at.z}}};
 }
 
-/// The distances in both directions, and their maximum.
+/// Lower and upper bounds of the Hausdorff distance, and the one-sided distances in both directions.
 Json distanceJson(const measure::Hausdorff& d, measure::Point origin) {
   return {{"at_least", d.atLeast()},
           {"at_most", d.atMost()},
@@ -207,7 +207,7 @@ Section texelSection(const Region& region, double resolution) {
   std::vector<std::array<float, 2>> coordinates;
   coordinates.reserve(unwrapped.wedges.size());
   for (const Wedge& wedge : unwrapped.wedges) coordinates.push_back({wedge.u, wedge.v});
-  // Triangles without a chart have triplanar coordinates, with tiles of equal size.
+  // Exclude triangles without a UV chart: they have triplanar coordinates, whose texel density is constant.
   std::vector<measure::Triangle> charted, corners;
   double area = 0, by_planes = 0;
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// The optional sections of `sgm measure`, which need more input than the mesh itself.
+// The optional sections of the report of `sgm measure`, which need more input than the mesh itself.
 
 #include <string>
 
@@ -13,31 +13,31 @@
 
 namespace sgm::cli {
 
-/// A section of the report, for --json and as lines of text.
+/// One section of the report, as JSON and as lines of text.
 struct Section {
   Json json;
   std::string text;
 };
 
-/// The differences between mesh and field. cell: edge of the mesh's grid cells, units. origin: world position of the
-/// mesh's origin.
+/// Reports the differences between a mesh and the field from which it was made. cell: edge of the mesh's grid cells,
+/// units. origin: world position of the mesh's origin.
 Section fieldSection(const FieldAgreement& found, int32_t cell, Int3 origin);
 
-/// The distance between two levels of detail, fine and fine + 1. coarse_cell: edge of the coarser level's grid cells,
-/// units. origin: world position of the finer mesh's origin.
+/// Reports the Hausdorff distance between the meshes of two levels of detail, fine and fine + 1. coarse_cell: edge of
+/// the coarser level's grid cells, units. origin: world position of the finer mesh's origin.
 Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell, Int3 origin);
 
-/// The distance between two meshes. with: name of the other mesh. triangles: its number of triangles. origin: world
-/// position of the origin of both meshes.
+/// Reports the Hausdorff distance between two meshes. with: name of the other mesh. triangles: number of triangles of
+/// the other mesh. origin: world position of the origin of both meshes.
 Section distanceSection(const measure::Hausdorff& found, const std::string& with, size_t triangles,
                         measure::Point origin);
 
-/// The cost of drawing the mesh.
+/// Reports the estimated cost of drawing the mesh.
 Section drawingSection(const DrawingCost& found);
 
-/// The texel density of a mesh file. resolution: number of texels along the edge of its texture.
+/// Reports the texel density of a mesh file. resolution: number of texels along the edge of its texture.
 Section texelSection(const asset::TriangleMesh& mesh, double resolution);
-/// The texel density of a textured region, whose texture repeats in tiles of kTile.
+/// Reports the texel density of a textured region, whose texture repeats in tiles of kTile.
 Section texelSection(const Region& region, double resolution);
 
 }  // namespace sgm::cli

@@ -9,7 +9,7 @@
 namespace sgm::cli {
 
 struct MeshOptions : WorldOptions {
-  std::string out;  ///< file to write; empty: the mesh is only measured
+  std::string out;  ///< mesh file to write; empty: the mesh is only measured
 };
 Exit mesh(const MeshOptions& options);
 

@@ -1,4 +1,4 @@
-// sgm mesh: writes a region of a grammar's world to a mesh file.
+// `sgm mesh`: writes a region of a grammar's world to a mesh file.
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -22,10 +22,10 @@ namespace {
 
 struct Summary {
   Measures measures;
-  double volume = 0, void_volume = 0;  ///< computed by the divergence theorem
-  double cubes = 0, void_cubes = 0;    ///< computed by equation 8 of the paper, from cubes
+  double volume = 0, void_volume = 0;  ///< volume in m3 of the solid and of the void, by the divergence theorem
+  double cubes = 0, void_cubes = 0;    ///< the same volumes by counting cubes (equation 8 of the paper)
   std::vector<std::string> files;
-  uint64_t bytes = 0;  ///< total of all files
+  uint64_t bytes = 0;  ///< total size of all written files
 };
 
 void printJson(const MeshOptions& options, const Region& region, const Summary& summary) {
@@ -75,7 +75,7 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
              region.device);
 }
 
-/// Measures the region. Volumes are those of the solid and of the void inside the region.
+/// Measures the meshed region. Volumes are those of the solid and of the void inside the region.
 Result<void> measureRegion(const WorldField& world, const Region& region, const MeshOptions& options,
                            Summary& summary) {
   const IntBox& extent = region.meshed.extent;
@@ -96,7 +96,7 @@ Exit mesh(const MeshOptions& options) {
   if (options.uv && !options.out.empty() && !MeshFile::holdsTexture(options.out)) {
     return reportError(Exit::usage, "--uv: only .glb and .obj files have texture coordinates; write one of these");
   }
-  // Open the file before the long meshing, so that its errors are reported at once.
+  // Open the output file before the long meshing, so that its errors are reported at once.
   std::optional<MeshFile> file;
   if (!options.out.empty()) {
     Result<MeshFile> opened = MeshFile::create(options.out, &unfinished_files);

@@ -1,4 +1,4 @@
-// sgm render: draws a picture of a region of a grammar's world.
+// `sgm render`: draws a picture of a region of a grammar's world.
 
 #include <fmt/core.h>
 
@@ -18,7 +18,8 @@ std::string cornerText(Int3 corner) {
   return fmt::format("{:.10f},{:.10f},{:.10f}", metres(corner.x), metres(corner.y), metres(corner.z));
 }
 
-/// The options with the region, and with the camera that was chosen in it with cells of equal size.
+/// The options for meshing a region again that has been meshed with equal cells: they state the region, and a camera
+/// that is chosen in it, explicitly.
 Result<RenderOptions> withCamera(const RenderOptions& options, const Region& region) {
   const Result<RegionScene> scene = sceneOf(options, region);
   if (!scene) return scene.error();
@@ -27,15 +28,15 @@ Result<RenderOptions> withCamera(const RenderOptions& options, const Region& reg
   settled.fov = scene->view.camera.fov_degrees;
   settled.region = cornerText(region.meshed.extent.lo) + ':' + cornerText(region.meshed.extent.hi);
   settled.frame.clear();
-  if (scene->view.at_anchor) settled.at.clear();  // the camera already stands at that anchor
+  if (scene->view.at_anchor) settled.at.clear();  // the chosen camera already stands at the anchor that --at names
   settled.cell = metres(region.cell);
   settled.density.reset();
   settled.level = 0;
   return settled;
 }
 
-/// Meshes the region of the options. If --pixels requires small cells near a camera that the options do not give, first
-/// meshes with equal cells to choose the camera, then meshes the region again.
+/// Meshes the region that the options select. If --pixels requires smaller cells near the camera, but no camera is
+/// given, meshes the region first with equal cells to choose the camera, and then again with smaller cells.
 RegionResult meshPicture(RenderOptions& options, std::optional<RegionDensity>& density) {
   RegionResult made = meshRegion(options, picturePlan(options, density));
   if (!made.region || !options.pixels || !options.camera.empty() || !checkDrawable(options, *made.region)) return made;
@@ -58,7 +59,7 @@ Exit render(const RenderOptions& asked) {
   if (!hasExtension(options.out, ".png"))
     return reportError(Exit::usage, "--out: pictures are .png files; --plan and --section write .svg too");
   if (!options.seeds.empty()) return drawSeeds(options);
-  // Open the device and the file before the long meshing, so that their errors are reported at once.
+  // Open the GPU and the output file before the long meshing, so that their errors are reported at once.
   const Result<Renderer> renderer = Renderer::create();
   if (!renderer) return reportError(renderer.error());
   Result<FileWriter> file = FileWriter::create(options.out, &unfinished_files);

@@ -21,18 +21,18 @@ namespace {
 
 constexpr int kLeastWidth = 64, kLeastHeight = 36;  // minimum size of each picture, pixels
 
-/// The picture of one seed on the sheet.
+/// The picture that the sheet shows for one seed, or the error that prevented it.
 struct SeedPicture {
   uint64_t seed = 0;
   Image image;
   std::optional<Error> error;
   size_t triangles = 0;
-  std::string path;  ///< path of the rule use that --frame shows
+  std::string path;  ///< path of the rule application that --frame shows, such as "net(0, 0, 0)/Node/Chamber[0]"
 };
 
 int columnsFor(size_t count) { return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))); }
 
-/// Size of each picture on a sheet with `columns` columns, which leaves space for the sheet's margins.
+/// Size of each picture on a contact sheet of size `sheet` with `columns` columns and margins between the pictures.
 PictureSize pictureSize(const PictureSize& sheet, int columns) {
   constexpr int kMargins = 8;
   const int width = (sheet.width - kMargins) / columns - kMargins;
@@ -54,7 +54,7 @@ Result<void> drawSeed(const Renderer& renderer, const std::shared_ptr<const Prog
   return {};
 }
 
-/// A grey picture with the error message as wrapped text.
+/// A grey picture that shows the error message as wrapped text instead of the scene.
 Image failedPicture(const PictureSize& size, const Error& error) {
   constexpr uint8_t kGrey = 64;
   constexpr survey::Ink kPale{220, 200, 190};
@@ -95,7 +95,7 @@ void stamp(Image& image, uint64_t seed) {
   survey::drawOnto(image, {edge, letters});
 }
 
-/// Prints each different error once, with all seeds that had it. Returns the exit status of the first error.
+/// Prints each distinct error once, with all seeds that had it. Returns the exit status of the first error.
 Exit tellFailures(const std::vector<SeedPicture>& pictures) {
   Exit status = Exit::done;
   std::vector<bool> told(pictures.size());

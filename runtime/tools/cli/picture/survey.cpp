@@ -24,7 +24,7 @@ std::string boxText(const IntBox& box) {
                      metres(box.lo.y), metres(box.hi.y), metres(box.lo.z), metres(box.hi.z));
 }
 
-/// The samples of the survey, and the drawing made of them.
+/// The field samples of a survey, and the drawing made from these samples.
 struct Survey {
   survey::Columns columns;
   std::optional<survey::Slice> slice;

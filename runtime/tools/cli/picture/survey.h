@@ -6,7 +6,7 @@
 
 namespace sgm::cli {
 
-/// Contract: options.plan or options.section is set. Needs no GPU.
+/// Draws the survey and writes it to a file. Needs no GPU. Contract: options.plan or options.section is set.
 Exit drawSurvey(const RenderOptions& options);
 
 }  // namespace sgm::cli

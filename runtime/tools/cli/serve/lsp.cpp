@@ -1,4 +1,4 @@
-// Sgm lsp: runs the language server on standard input and output.
+// `sgm lsp`: runs the language server on standard input and output.
 
 #include <fmt/core.h>
 
@@ -17,12 +17,12 @@
 namespace sgm::cli {
 namespace {
 
-constexpr uint64_t kMaxBytes = uint64_t{64} << 20;  // limit of a message
-constexpr size_t kMaxHeaderBytes = 64 << 10;        // limit of all header lines of a message
-constexpr int kDeepest = 256;                       // limit of nested arrays and objects
+constexpr uint64_t kMaxBytes = uint64_t{64} << 20;  // maximum size of the content of a message
+constexpr size_t kMaxHeaderBytes = 64 << 10;        // maximum total size of the header lines of a message
+constexpr int kDeepest = 256;                       // maximum nesting depth of arrays and objects
 
-/// Whether arrays and objects are nested too deeply: the JSON library copies and prints values recursively, and the
-/// stack is limited. For text that is not JSON, the result is arbitrary.
+/// Whether arrays and objects are nested more than kDeepest deep: the JSON library copies and prints values
+/// recursively, and the stack is limited. For text that is not JSON, the result is arbitrary.
 bool isTooDeep(std::string_view json) {
   int depth = 0;
   bool in_text = false;
@@ -42,13 +42,13 @@ bool isTooDeep(std::string_view json) {
   return false;
 }
 
-/// Reads messages in the protocol's framing: header lines, an empty line, then as many bytes as Content-Length states.
-/// next() returns nullopt at the end of the input.
+/// Reads messages in the Language Server Protocol's format: header lines, an empty line, then as many bytes as
+/// Content-Length states.
 class MessageReader {
  public:
   explicit MessageReader(std::istream& in) : in_(in) {}
 
-  /// The bytes of the next message; an empty text if it is too large.
+  /// The bytes of the next message; an empty text if it is larger than kMaxBytes; nullopt at the end of the input.
   std::optional<std::string> next() {
     const std::optional<uint64_t> length = headers();
     if (!length) return std::nullopt;
@@ -61,7 +61,8 @@ class MessageReader {
     if (static_cast<uint64_t>(in_.gcount()) != *length) return std::nullopt;
     return bytes;
   }
-  /// Whether the input contained something that is not a message, after which no further message can be found.
+  /// Whether the input contained malformed or too long headers, after which the start of the next message cannot be
+  /// found.
   bool lost() const { return lost_; }
 
  private:
@@ -92,7 +93,8 @@ class MessageReader {
     return std::nullopt;
   }
 
-  /// Reads one header line. Returns false at the end of the input, or after too many header bytes.
+  /// Reads one header line. left: number of header bytes that may still be read; updated. Returns false at the end of
+  /// the input, or if the line is longer.
   bool headerLine(std::string& line, size_t& left) {
     line.clear();
     for (char c = 0; left > 0 && in_.get(c); --left) {
@@ -107,7 +109,7 @@ class MessageReader {
 };
 
 bool send(const nlohmann::json& message) {
-  // Invalid UTF-8 is replaced, because an editor's text may contain it.
+  // Replace invalid UTF-8, because the text of an editor may contain it.
   const std::string bytes = message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   fmt::print("Content-Length: {}\r\n\r\n{}", bytes.size(), bytes);
   return std::fflush(stdout) == 0;

@@ -1,4 +1,4 @@
-// Sgm serve: serves a web page and an HTTP interface that measure and classify meshes, until a signal ends the process.
+// `sgm serve`: runs a web page and an HTTP interface that measure and classify meshes, until a signal ends the process.
 
 #include <fmt/core.h>
 

@@ -26,7 +26,7 @@ std::string urlOf(const std::string& address, uint16_t port) {
                                                 : fmt::format("http://[{}]:{}", address, port);
 }
 
-/// Raises the limit of open files: each client needs a descriptor, and shells set limits as low as 1,024.
+/// Raises the limit of open files: each client needs a file descriptor, and shells set limits as low as 1,024.
 void allowManyFiles() {
   rlimit files{};
   if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;
@@ -44,7 +44,7 @@ Result<Serving> Serving::start(const ServingOptions& options) {
     if (!read) return read.error();
     token = std::move(*read);
   }
-  // This program also inspects uploads.
+  // The service inspects each upload in a new process of this same program.
   const Result<std::string> program = platform::ownProgram();
   if (!program) return program.error();
   std::vector<const char*> hosts;

@@ -1,5 +1,5 @@
 #pragma once
-// Letters in HTTP are ASCII. These functions do not depend on the locale.
+// Functions for ASCII letters and digits in HTTP. They do not depend on the locale.
 
 #include <algorithm>
 #include <string_view>
@@ -10,7 +10,7 @@ constexpr bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 |
 
 constexpr char lowerLetter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// Whether two texts are equal if the case of letters is ignored.
+/// Whether two texts are equal apart from the case of ASCII letters.
 inline bool sameLetters(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](char x, char y) { return lowerLetter(x) == lowerLetter(y); });

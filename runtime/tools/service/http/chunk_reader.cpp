@@ -8,10 +8,10 @@ namespace sgm::service::http {
 
 namespace {
 
-/// Limit of the total bytes of chunk extensions and trailers in one body.
+/// Maximum total number of bytes of chunk extensions and trailers in one body.
 constexpr uint32_t kMaxFraming = 4096;
 
-/// Maximum number of hexadecimal digits of a chunk size: 64 bits.
+/// Maximum number of hexadecimal digits of a chunk's size: 16 digits are 64 bits.
 constexpr uint32_t kMaxDigits = 16;
 
 Problem badChunk() { return {400, "bad_request", "The chunks of the body are not valid HTTP.", {}}; }
@@ -62,7 +62,8 @@ std::optional<Problem> ChunkReader::take(char c) {
       state_ = State::after_size;
       [[fallthrough]];
     case State::after_size:
-      // Spaces are accepted only before an extension: parsers may disagree about other spaces.
+      // Accept spaces after the size only before an extension. Parsers disagree about other spaces, which allows
+      // request smuggling.
       if (c == ';')
         state_ = State::extension;
       else if (c != ' ' && c != '\t')

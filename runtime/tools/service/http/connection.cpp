@@ -30,9 +30,9 @@ Response unavailable(const char* code, const char* detail) {
   return response;
 }
 
-/// Enables TCP keep-alive, to detect clients that are gone. A client that has closed its socket looks like a client
-/// that has only finished sending, and a host without power looks like an idle one. When it is probed, the first
-/// client's system resets the connection once it has forgotten it, and the second does not answer.
+/// Enables TCP keep-alive to detect clients that are gone. Without probes, a client that has closed its socket looks
+/// like one that has only finished sending, and a host without power looks like an idle client. In the first case, the
+/// client's system answers a probe by resetting the connection; in the second, the probe gets no answer.
 void askWhetherThere(net::ip::tcp::socket& socket) {
   ErrorCode ignored;
   socket.set_option(net::socket_base::keep_alive(true), ignored);
@@ -52,8 +52,8 @@ ReaderLimits readerLimits(const ServerSettings& settings) {
 
 }  // namespace
 
-/// Wraps a callback, and keeps the connection alive until it is called. If memory runs out, the connection is closed,
-/// because it would otherwise hang.
+/// Wraps a completion handler and keeps the connection alive until it is called. If the handler throws, for lack of
+/// memory, the connection is closed: it would otherwise hang.
 template <class Call>
 auto Connection::guarded(Call call) {
   return [self = shared_from_this(), call](const ErrorCode& error, auto...) {
@@ -99,12 +99,13 @@ void Connection::close() noexcept {
   loop_.forget(shared_from_this(), turned_away_);
 }
 
-/// Starts a phase of the connection. Its time limit counts from here; activity of the client does not extend it.
+/// Starts a phase of the connection, which must end within `time` from now. Activity of the client does not extend the
+/// limit.
 void Connection::enter(Phase phase, std::chrono::milliseconds time) {
   phase_ = phase;
   deadline_ = Clock::now() + time;
-  // If the new deadline is later than the timer, it is checked when the timer fires, so most requests never set the
-  // timer.
+  // A running timer is only moved to an earlier time. A later deadline is checked when the timer fires, so most
+  // requests never set the timer.
   if (deadline_ < alarm_) setAlarm();
 }
 
@@ -134,8 +135,8 @@ void Connection::onTooSlow() {
   send(makeResponse(Problem{408, "timeout", "The request took too long to arrive.", {}}), true);
 }
 
-/// Waits until the client resets the connection, also while nothing is read or written. A half-closed connection stays
-/// open. Urgent data causes the same event until it is read, so a client that sends urgent data is no longer watched.
+/// Closes the connection when the client resets it, also while no read or write is pending. A half-closed connection
+/// stays open. Urgent data triggers the same event, after which the connection is no longer watched.
 void Connection::watch() {
   socket_.async_wait(net::socket_base::wait_error, guarded([this](const ErrorCode& error) {
                        pollfd ended{socket_.native_handle(), 0, 0};
@@ -192,7 +193,7 @@ void Connection::read(std::string_view bytes) {
   }
 }
 
-/// Passes the request's head to the handler. Returns false if the request has been answered already.
+/// Passes the request's head to the handler. Returns false if the request has been answered and its body is not wanted.
 bool Connection::admit() {
   Admission admission;
   try {
@@ -225,7 +226,7 @@ void Connection::work() {
   try {
     loop_.handler.answer(reader_.request(), std::move(body_), std::move(reply));
   } catch (...) {
-    // If the handler threw, the reply was destroyed in the call, which sends a 500, or the owner of the reply will
+    // The exception needs no handling: if it destroyed the reply, a 500 is sent; otherwise the owner of the reply will
     // answer.
   }
 }

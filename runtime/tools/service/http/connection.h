@@ -1,5 +1,5 @@
 #pragma once
-// The connection of one client: its successive requests, and the time limits of their phases.
+// The connection of one client, which handles its requests one after another and limits the time of each phase.
 
 #include <atomic>
 #include <boost/asio/ip/tcp.hpp>
@@ -18,16 +18,17 @@ namespace sgm::service::http {
 
 class Connection final : public Answered, public std::enable_shared_from_this<Connection> {
  public:
-  /// Loop must outlive the connection. The connection does nothing before start() or turnAway().
+  /// Contract: `loop` outlives the connection. The connection does nothing before start() or turnAway().
   Connection(Loop& loop, boost::asio::ip::tcp::socket socket);
 
   void start();
-  /// Sends a 503 and closes.
+  /// Sends a 503 and closes the connection.
   void turnAway();
   void deliver(std::optional<Response> response) override;
-  /// For the stop of the server: closes, unless a request is being answered.
+  /// Called when the server stops: closes the connection, unless the head of a request has arrived that is not yet
+  /// answered.
   void stopSoon();
-  /// Closes immediately. May destroy the connection, so the caller must not use it afterwards.
+  /// Closes the connection immediately. May destroy it, so the caller must not use it afterwards.
   void close() noexcept;
 
  private:
@@ -59,13 +60,14 @@ class Connection final : public Answered, public std::enable_shared_from_this<Co
   boost::asio::steady_timer timer_;
   Phase phase_ = Phase::idle;
   Clock::time_point deadline_ = Clock::time_point::max();
-  /// Time at which the timer fires and checks deadline_; never later than deadline_.
+  /// Time at which the timer fires, never later than deadline_. The deadline is then checked.
   Clock::time_point alarm_ = Clock::time_point::max();
   std::shared_ptr<std::atomic<bool>> gone_ = std::make_shared<std::atomic<bool>>(false);
-  /// Number of the current wait for bytes; a completed wait with another number was cancelled, and is ignored.
+  /// Number of the current wait for bytes. A wait that completes with an older number was cancelled, and is ignored.
   uint32_t turn_ = 0;
   RequestReader reader_;
-  std::string kept_;  ///< bytes that were read after the current request; they belong to the next request
+  std::string kept_;  ///< bytes that arrived behind the current request; they belong to the rest of it or to the next
+                      ///< request
   std::unique_ptr<Body> body_;
   std::string answer_head_;
   std::shared_ptr<const std::string> answer_body_;

@@ -1,5 +1,5 @@
 #pragma once
-// The interface of the code that answers a server's requests.
+// Interface for the code that answers the requests of a server.
 
 #include <cstdint>
 #include <functional>
@@ -11,36 +11,36 @@
 
 namespace sgm::service::http {
 
-/// Sends the answer to a request. May be called from any thread, once; further calls do nothing. If the function is
-/// destroyed without a call, the client gets a 500. By the time of the call the client may have disconnected
-/// (Request::gone), or have received a 503 after ServerSettings::work_time.
+/// Sends the answer to a request. Thread-safe; only the first call has an effect. If all copies are destroyed without a
+/// call, the client gets a 500. At the time of the call, the client may have disconnected (see Request::gone) or got a
+/// 503 after ServerSettings::work_time; the answer is then discarded.
 using Reply = std::function<void(Response)>;
 
-/// Receives the body of a request, piece by piece, in the server's thread.
+/// Receives the body of a request piece by piece, on the server's thread.
 class Body {
  public:
   virtual ~Body() = default;
-  /// Receives the next piece. If it returns an answer, the request ends with it: the rest of the body is not read, and
-  /// the connection closes afterwards.
+  /// Receives the next piece of the body. If it returns an answer, that is sent at once, the rest of the body is
+  /// ignored, and the connection closes.
   virtual std::optional<Response> take(std::string_view piece) = 0;
 };
 
-/// The handler's decision on a request, made after its head has arrived and before its body.
+/// The handler's decision about a request whose head has arrived, but not its body.
 struct Admission {
-  /// The answer to a rejected request, sent immediately; if a body follows, the connection closes afterwards.
+  /// If set, the request is rejected with this answer. If the request has a body, the connection then closes.
   std::optional<Response> refusal;
-  std::unique_ptr<Body> body;  ///< receives the body; null: a body is not accepted, and gives a 413
-  uint64_t max_bytes = 0;      ///< limit of the decoded body; a larger body gives a 413
+  std::unique_ptr<Body> body;  ///< receives the request's body; if null, a request with a body gets a 413
+  uint64_t max_bytes = 0;      ///< maximum size of the decoded body; a larger body gets a 413
 };
 
-/// Answers the requests of a server. Both functions are called in the server's thread, and must not block. The request
+/// Answers the requests of a server. Both functions are called on the server's thread and must not block. The request
 /// is valid only during the call. An exception gives a 500.
 class Handler {
  public:
   virtual ~Handler() = default;
   virtual Admission admit(const Request& request) = 0;
-  /// Called when the body is complete. `body` is the object that admit() returned, and may be null. A HEAD request is
-  /// not converted to GET: the server omits the body of the answer.
+  /// Called when the body is complete. body: the object that admit() returned, or null. HEAD requests arrive as HEAD:
+  /// the server omits the body of the answer.
   virtual void answer(const Request& request, std::unique_ptr<Body> body, Reply reply) = 0;
 };
 

@@ -20,7 +20,7 @@ std::string_view view(beast::string_view text) { return {text.data(), text.size(
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// Checks the version before the target, since another version may write the target differently.
+/// Checks the HTTP version first, since the target may have another syntax in other versions.
 std::optional<Problem> checkVersion(std::string_view line) {
   const std::string_view version = line.substr(line.rfind(' ') + 1);
   const bool is_version = version.size() == 8 && version.substr(0, 5) == "HTTP/" && isDigit(version[5]) &&
@@ -80,7 +80,8 @@ std::optional<Problem> readHead(std::string_view text, Head& head) {
 
   beast::http::request_parser<beast::http::empty_body> parser;
   parser.header_limit(static_cast<uint32_t>(std::min<size_t>(text.size(), UINT32_MAX)));
-  parser.body_limit(UINT64_MAX);  // Beast's value for "no limit" rejects every length; RequestReader checks the limit
+  parser.body_limit(UINT64_MAX);  // RequestReader checks the limit (Beast's value for "no limit" would reject every
+                                  // length)
   beast::error_code error;
   parser.put(boost::asio::const_buffer(text.data(), text.size()), error);
   if (error || !parser.is_header_done()) return badRequest("The request's header is not valid HTTP.");
@@ -97,7 +98,7 @@ std::optional<Problem> readHead(std::string_view text, Head& head) {
   if (head.request.method == "CONNECT") return badRequest("This server is not a proxy.");
   if (auto problem = readTarget(view(parser.get().target()), head.request.field("Host"), head.request)) return problem;
 
-  // RFC 9110, 10.1.1: HTTP/1.0 has no status 100, so an expectation in such a request is ignored.
+  // HTTP/1.0 has no status 100 (Continue), so 100-continue is ignored in such a request (RFC 9110, 10.1.1).
   if (const auto expectation = head.request.field("Expect")) {
     const bool known = sameLetters(*expectation, "100-continue") && countOf(head.request, "Expect") == 1;
     head.expects_continue = known && head.http11;

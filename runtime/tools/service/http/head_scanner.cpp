@@ -51,7 +51,7 @@ std::optional<Problem> HeadScanner::take(char c) {
 
 std::optional<Problem> HeadScanner::endLine() {
   if (line_bytes_ == 0 && lines_ == 0) {
-    // One empty line before the request line is accepted (RFC 9112, 2.2), because old clients send it after a body.
+    // Accept one empty line before the request line (RFC 9112, 2.2): old clients send it after the previous body.
     if (skipped_line_) return badHead("The request line is missing.");
     skipped_line_ = true;
     text_.clear();

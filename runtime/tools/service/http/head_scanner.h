@@ -1,6 +1,6 @@
 #pragma once
-// Finds the end of a request's head. Rejects the head at its first invalid byte, or at the first byte beyond a limit,
-// before any parsing. The result does not depend on how the bytes are split into pieces on arrival.
+// Finds the end of a request's head in the bytes that arrive. Rejects the head before any parsing: at its first invalid
+// byte, or at the first byte beyond a limit. The result does not depend on how the bytes are split on arrival.
 
 #include <cstddef>
 #include <optional>
@@ -13,7 +13,7 @@
 namespace sgm::service::http {
 
 struct ReaderLimits {
-  size_t line_bytes = 8192;   ///< limit of the request line, and of each field, without line ends
+  size_t line_bytes = 8192;   ///< limit of the request line and of each header, without line ends
   size_t head_bytes = 32768;  ///< limit of the whole head
   size_t fields = 64;
 };
@@ -22,18 +22,18 @@ class HeadScanner {
  public:
   explicit HeadScanner(const ReaderLimits& limits) : limits_(limits) {}
 
-  /// Consumes bytes up to the end of the head, and removes them from `bytes`. Must not be called again after it has
+  /// Consumes bytes up to the end of the head and removes them from `bytes`. Must not be called again after it has
   /// returned a problem.
   std::optional<Problem> scan(std::string_view& bytes);
   bool whole() const { return whole_; }
-  /// Whether any byte of this head has been consumed, even if only an empty line before the head.
+  /// Whether any byte has been consumed since reset(), even if only that of an empty line before the head.
   bool begun() const { return begun_; }
-  /// The head, from the first letter of the request line to the end of the final empty line.
+  /// The head so far, from the first letter of the request line up to and including the final empty line.
   const std::string& text() const { return text_; }
-  /// Prepares for the next request, and frees the memory of the text.
+  /// Prepares the scanner for the next request, and frees the memory of the head.
   void reset() {
     HeadScanner fresh(limits_);
-    std::swap(*this, fresh);  // an assignment to text_ would keep its capacity
+    std::swap(*this, fresh);  // swapped, since an assignment would keep the capacity of text_
   }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// State that the connections of a server share. Only the server's thread uses it, except the counts and the mailbox.
+// State that all connections of a server share. Only the server's thread uses it, except the counts and the mailbox.
 
 #include <array>
 #include <atomic>
@@ -32,16 +32,16 @@ struct Loop {
   LoopCounts counts;
   boost::asio::io_context context{1};
   std::shared_ptr<Mailbox> mailbox = std::make_shared<Mailbox>(context);
-  /// Receives bytes of the connection that is being read. Shared, so that idle connections need no buffers.
+  /// Read buffer. All connections share it, so that idle connections need no memory for one.
   std::vector<char> buffer = std::vector<char>(size_t{16} << 10);
   std::unordered_set<std::shared_ptr<Connection>> connections;
   Unsent unsent{settings.unsent_bytes};
-  size_t turned_away_now = 0;  ///< number of connections that only receive the 503 (turned away)
+  size_t turned_away_now = 0;  ///< number of open connections that only receive a 503
   bool stopping = false;
 
-  /// The current time for the field Date. Formatted once a second.
+  /// The current time as the value of the header Date, formatted once a second.
   std::string_view date();
-  /// Removes a closed connection. If the loop is stopping and this was the last connection, ends the loop.
+  /// Removes a closed connection. If the server is stopping and this was the last connection, the loop ends.
   void forget(const std::shared_ptr<Connection>& connection, bool turned_away);
 
  private:

@@ -17,7 +17,7 @@ std::string quoted(std::string_view text) {
     const size_t size = utf8Size(text);
     const char c = text.front();
     if (size == 0) {
-      out += "\\ufffd";  // replaces invalid UTF-8, which JSON must not contain
+      out += "\\ufffd";  // replacement character for invalid UTF-8, which JSON must not contain
     } else if (c == '"' || c == '\\') {
       (out += '\\') += c;
     } else if (isControl(c)) {

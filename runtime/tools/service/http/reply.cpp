@@ -9,20 +9,21 @@
 
 namespace sgm::service::http {
 
-/// An answer on its way to the server's thread, with memory for the call that Asio posts.
+/// An answer on its way to the server's thread. Includes memory for the handler that Asio posts, so that posting cannot
+/// fail.
 struct Letter {
   explicit Letter(std::weak_ptr<Answered> receiver) : to(std::move(receiver)) {}
 
   std::weak_ptr<Answered> to;
   std::optional<Response> response;
   alignas(std::max_align_t) std::array<std::byte, 256> room{};
-  /// No lock: Asio allocates before it passes on the call, so only one thread at a time uses this.
+  /// Whether `room` is in use. Needs no lock: Asio allocates before it passes the call to another thread.
   bool room_taken = false;
 };
 
 namespace {
 
-/// Allocates in a letter's own memory, or on the heap if that memory is too small or in use.
+/// An allocator that uses the letter's own memory, or the heap if that memory is too small or in use.
 template <class T>
 struct LetterAllocator {
   using value_type = T;
@@ -62,8 +63,8 @@ struct Delivery {
   std::shared_ptr<Letter> letter;
 };
 
-/// Shared by all copies of a Reply. Posts the letter once: with the answer, or without one when all copies are
-/// destroyed.
+/// Shared by all copies of a Reply. Posts its letter once: with the answer at the first call, or without an answer when
+/// all copies have been destroyed.
 class Ticket {
  public:
   Ticket(std::shared_ptr<Mailbox> mailbox, std::shared_ptr<Letter> letter)

@@ -1,5 +1,5 @@
 #pragma once
-// Passes an answer from any thread to the thread of its server.
+// Passes an answer from any thread to the server's thread.
 
 #include <boost/asio/io_context.hpp>
 #include <memory>
@@ -10,24 +10,23 @@
 
 namespace sgm::service::http {
 
-/// Receives an answer. The functions are called in the server's thread.
+/// The receiver of an answer. Its functions are called on the server's thread.
 class Answered {
  public:
   virtual ~Answered() = default;
-  /// nullopt: the Reply was destroyed without an answer.
+  /// Receives the answer; nullopt if all copies of the Reply were destroyed without a call.
   virtual void deliver(std::optional<Response> response) = 0;
 };
 
 struct Letter;
 
-/// The mailbox of one server. A Reply shares its ownership, so the mailbox may outlive the server.
+/// Queue of answers for the thread of one server. Each Reply shares its ownership, so it may outlive the server.
 class Mailbox {
  public:
   explicit Mailbox(boost::asio::io_context& context) : context_(&context) {}
-  /// Letters that are posted afterwards are discarded.
+  /// Letters that are posted after this call are discarded.
   void close();
-  /// Queues a letter for the server's thread. Allocates no memory: if it failed, the client would wait for the answer
-  /// forever.
+  /// Queues a letter for the server's thread. Allocates no memory, since a failure would let the client wait forever.
   void post(std::shared_ptr<Letter> letter) noexcept;
 
  private:
@@ -35,7 +34,7 @@ class Mailbox {
   boost::asio::io_context* context_;
 };
 
-/// Makes a Reply that delivers to `to`. If `to` has been destroyed by then, the answer is discarded.
+/// Makes a Reply that delivers its answer to `to`. If `to` has been destroyed by then, the answer is discarded.
 Reply makeReply(std::shared_ptr<Mailbox> mailbox, std::weak_ptr<Answered> to);
 
 }  // namespace sgm::service::http

@@ -1,6 +1,6 @@
 #pragma once
-// Parses requests from the bytes of a connection, without sockets or clocks. The result depends only on the bytes, not
-// on how they are split into pieces on arrival.
+// Parses HTTP requests from the bytes of a connection; uses no sockets and no clocks. The result depends only on the
+// bytes, not on how they are split on arrival.
 
 #include <atomic>
 #include <cstdint>
@@ -19,41 +19,41 @@ namespace sgm::service::http {
 class RequestReader {
  public:
   enum class Event {
-    starved,  ///< all bytes are consumed, and more bytes are needed
-    head,     ///< request() is valid; the caller must call allow() or finish() before the next step
-    go_on,    ///< the client waits for 100 (Continue) before it sends the body
-    piece,    ///< piece() is the next piece of the body, never empty
-    end,      ///< the request is complete; the next step begins with the next request
-    refused,  ///< refusal() is the problem; no further events follow
+    starved,  ///< all bytes have been consumed, and more are needed
+    head,     ///< request() is valid; before next(), the caller must call allow() to get the body, or finish()
+    go_on,    ///< the client waits for a 100 (Continue) before it sends the body
+    piece,    ///< piece() is the next piece of the body, not empty
+    end,      ///< the request is complete; next() continues with the next request
+    refused,  ///< refusal() is the problem; no other events follow
   };
 
-  /// gone: flag for Request::gone of all requests.
+  /// gone: flag that every request gets as Request::gone.
   explicit RequestReader(const ReaderLimits& limits, std::shared_ptr<const std::atomic<bool>> gone = nullptr)
       : scanner_(limits), gone_(std::move(gone)) {}
 
-  /// Performs one step, and removes the consumed bytes from `bytes`. If `bytes` is empty, returns a pending event, or
-  /// starved.
+  /// Advances to the next event and removes the consumed bytes from `bytes`. With empty `bytes`, returns a pending
+  /// event or starved.
   Event next(std::string_view& bytes);
 
   /// The current request; valid from Event::head to Event::end.
   const Request& request() const { return head_.request; }
-  /// Sets the limit of the body in bytes, after Event::head; without a call the limit is 0. The next step rejects a
-  /// body that is larger, that has a Content-Encoding, or whose length is missing (POST, PUT, PATCH).
+  /// Sets the maximum size of the body in bytes; may be called after Event::head. Without a call, the maximum is 0.
+  /// next() then rejects a body that is larger, has a Content-Encoding, or has no known length (POST, PUT, PATCH).
   void allow(uint64_t max_bytes) { max_bytes_ = max_bytes; }
-  /// May be called after Event::head instead of allow(), for a request without a body that has already been answered.
-  /// The next step begins with the next request.
+  /// May be called after Event::head, instead of allow(), if a request without a body has already been answered. next()
+  /// then continues with the next request.
   void finish() { state_ = State::end; }
-  /// The piece of the body at Event::piece: a part of the bytes passed to next().
+  /// The piece of the body after Event::piece: a part of the bytes that were passed to next().
   std::string_view piece() const { return piece_; }
   const Problem& refusal() const { return refusal_; }
 
-  /// Whether the reader is between two requests: no byte of the next request has been consumed.
+  /// Whether no request has begun: no byte of the next head has been consumed.
   bool between() const { return state_ == State::head && !scanner_.begun(); }
-  /// Whether the head of a request is being read, or has yet to begin.
+  /// Whether the reader expects the beginning or the rest of a head.
   bool inHead() const { return state_ == State::head; }
-  /// Whether the request has a body. Valid from Event::head to Event::end.
+  /// Whether the current request has a body. Valid from Event::head to Event::end.
   bool hasBody() const { return head_.hasBody(); }
-  /// Whether another request may follow on this connection. Valid from Event::head to Event::end.
+  /// Whether another request may follow on the connection. Valid from Event::head to Event::end.
   bool keepAlive() const { return head_.keep_alive; }
   bool http11() const { return head_.http11; }
 
@@ -68,7 +68,7 @@ class RequestReader {
   Head head_;
   State state_ = State::head;
   uint64_t max_bytes_ = 0;
-  uint64_t to_come_ = 0;  ///< number of bytes that have not arrived, for a body of known length
+  uint64_t to_come_ = 0;  ///< number of bytes of the body that have not arrived yet, if its length is known
   ChunkReader chunks_{0};
   std::string_view piece_;
   Problem refusal_;

@@ -50,16 +50,15 @@ namespace {
 namespace net = boost::asio;
 using Tcp = net::ip::tcp;
 
-/// Maximum number of clients beyond the limit that concurrently get an answer (503). Further clients are closed without
-/// an answer.
+/// Maximum number of surplus clients that concurrently get a 503. Further clients are closed without an answer.
 constexpr size_t kMaxRejected = 64;
-/// That number is also at most an eighth of the limit, to keep descriptors free, but at least this many.
+/// Lower bound for the number of surplus clients, which is also limited to an eighth of all connections.
 constexpr size_t kLeastTurnedAway = 8;
 
 size_t mostTurnedAway(size_t connections) { return std::clamp(connections / 8, kLeastTurnedAway, kMaxRejected); }
 
-/// A reserved descriptor. When the process cannot open more files, releasing it allows the server to accept and close
-/// the next client, which would otherwise wait.
+/// A reserved file descriptor. When the process cannot open more files, the server releases it to accept and close the
+/// next client, which would otherwise wait.
 class SpareDescriptor {
  public:
   SpareDescriptor() { reopen(); }
@@ -67,12 +66,12 @@ class SpareDescriptor {
   SpareDescriptor(const SpareDescriptor&) = delete;
   SpareDescriptor& operator=(const SpareDescriptor&) = delete;
 
-  /// Reserves the descriptor again if it was released. Returns false if that fails.
+  /// Reserves a descriptor, if none is reserved. Returns false if that fails.
   bool reopen() {
     if (descriptor_ < 0) descriptor_ = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
     return descriptor_ >= 0;
   }
-  /// Releases the descriptor. Returns false if there was none.
+  /// Releases the reserved descriptor. Returns false if none was reserved.
   bool giveUp() {
     const bool had = descriptor_ >= 0;
     if (had) ::close(descriptor_);
@@ -84,10 +83,10 @@ class SpareDescriptor {
   int descriptor_ = -1;
 };
 
-/// Number of clients that are accepted before other events are processed.
+/// Maximum number of clients that are accepted before other events are processed.
 constexpr int kClientsAtOnce = 16;
 
-/// Pause before the next attempt if memory or file descriptors for another client are missing.
+/// Pause before the server accepts clients again after memory or file descriptors have run out.
 constexpr std::chrono::milliseconds kAcceptPause{50};
 
 class LoopServer final : public Server {
@@ -118,7 +117,7 @@ class LoopServer final : public Server {
   net::steady_timer pause_{loop_.context}, grace_{loop_.context};
   net::executor_work_guard<net::io_context::executor_type> work_{loop_.context.get_executor()};
   uint16_t port_ = 0;
-  bool accepting_ = false;  ///< whether a wait for the next client, or for the end of kAcceptPause, is pending
+  bool accepting_ = false;  ///< whether accept() is pending: a wait for the next client, or the pause kAcceptPause
   std::mutex stop_mutex_;
   std::thread thread_;
 };
@@ -155,9 +154,8 @@ Result<void> LoopServer::run() {
   return {};
 }
 
-/// Processes events until the server stops, or memory runs out outside of a connection's own calls. In that case,
-/// connections continue after the next call; if there was no memory to wait for the next client, the wait is tried
-/// again.
+/// Runs the event loop until the server stops, or until an event handler throws because memory has run out. The caller
+/// then calls turn() again, and the connections continue. If accept() could not be started, turn() tries it again.
 void LoopServer::turn() try {
   if (accepting_) {
     loop_.context.run();
@@ -168,8 +166,8 @@ void LoopServer::turn() try {
 } catch (...) {
 }
 
-/// Waits for the next client first, and accepts it in a separate call: if memory ran out inside async_accept(), its
-/// handler would never be called.
+/// Waits until a client can be accepted, then accepts it in a separate call. async_accept() is not used: if it ran out
+/// of memory, its handler would never be called.
 void LoopServer::accept() {
   acceptor_.async_wait(net::socket_base::wait_read, [this](const boost::system::error_code&) {
     accepting_ = false;
@@ -185,7 +183,7 @@ void LoopServer::accept() {
   accepting_ = true;
 }
 
-/// Accepts the clients that wait. Returns false if the system has no resources for another client now.
+/// Accepts the waiting clients. Returns false if the system has no resources for another client at present.
 bool LoopServer::welcomeAll() {
   for (int i = 0; i < kClientsAtOnce; ++i) {
     Tcp::socket socket(loop_.context);
@@ -203,7 +201,7 @@ bool LoopServer::welcomeAll() {
   return true;
 }
 
-/// Accepts and closes the next client. Returns false if the client still waits.
+/// Accepts the next client and closes it at once. Returns false if that fails and the client still waits.
 bool LoopServer::closeNext() {
   if (!spare_.giveUp()) {
     spare_.reopen();
@@ -237,7 +235,7 @@ void LoopServer::welcome(Tcp::socket socket) try {
     connection->close();
   }
 } catch (...) {
-  // There is no memory for this client; its socket is closed.
+  // There is no memory for this client: its socket is closed.
 }
 
 ServerCounts LoopServer::counts() const {
@@ -256,7 +254,7 @@ void LoopServer::stop(std::chrono::milliseconds grace) {
     try {
       net::post(loop_.context, [this, grace] { beginStop(grace); });
     } catch (...) {
-      loop_.context.stop();  // no memory for an orderly stop
+      loop_.context.stop();  // no memory for an orderly stop: stop at once
     }
     thread_.join();
   }
@@ -264,7 +262,7 @@ void LoopServer::stop(std::chrono::milliseconds grace) {
   loop_.connections.clear();
 }
 
-/// Calls `call` for every connection. `call` may close the connection that it is given.
+/// Calls `call` for every connection. `call` may close that connection.
 void LoopServer::forEach(auto call) {
   for (auto at = loop_.connections.begin(); at != loop_.connections.end();) {
     const std::shared_ptr<Connection> connection = *at++;

@@ -12,7 +12,8 @@ namespace {
 
 Problem badTarget(const char* detail) { return {400, "bad_request", detail, {}}; }
 
-/// Decodes percent escapes. nullopt for an invalid escape, or if the result is not UTF-8 without control characters.
+/// Decodes percent escapes. Returns nullopt if an escape is invalid, or if the result is not UTF-8 or has control
+/// characters.
 std::optional<std::string> decoded(std::string_view text, bool plus_is_space) {
   std::string out;
   for (size_t i = 0; i < text.size(); ++i) {
@@ -31,7 +32,7 @@ std::optional<std::string> decoded(std::string_view text, bool plus_is_space) {
   for (std::string_view rest = out; !rest.empty();) {
     const size_t size = utf8Size(rest);
     if (size == 0 || isControl(rest[0])) return std::nullopt;
-    // U+0080 to U+009F are control characters too.
+    // U+0080 to U+009F are control characters as well.
     if (rest[0] == '\xC2' && static_cast<unsigned char>(rest[1]) < 0xA0) return std::nullopt;
     rest.remove_prefix(size);
   }

@@ -4,7 +4,7 @@ namespace sgm::service::http {
 
 namespace {
 
-/// Bodies below this size are not counted, so that error answers, which need little memory, can always be sent.
+/// Smaller bodies are not counted, so that error answers, which need little memory, can always be sent.
 constexpr size_t kSmallBody = 4096;
 
 bool isCounted(const std::shared_ptr<const std::string>& body) { return body && body->size() >= kSmallBody; }

@@ -9,14 +9,14 @@
 
 namespace sgm::service::http {
 
-/// For one server. Used only in its thread.
+/// Counter of the unsent bodies of one server. Used on the server's thread only.
 class Unsent {
  public:
   explicit Unsent(uint64_t max_bytes) : most_(max_bytes) {}
 
-  /// Counts the size of a body until release() has been called as often as hold(); a body that is already held costs
-  /// nothing. Returns false, without holding the body, if the total would exceed the limit and other bodies are held.
-  /// Null and bodies below 4 KiB are always accepted. If it throws std::bad_alloc, the body is not held.
+  /// Counts a body's size until release() has been called as often as hold(). Holding the same body again costs
+  /// nothing. Returns false, without holding the body, if the total would exceed the limit and another body is held.
+  /// Null and bodies below 4 KiB are always accepted. If hold() throws std::bad_alloc, the body is not held.
   bool hold(const std::shared_ptr<const std::string>& body);
   void release(const std::shared_ptr<const std::string>& body) noexcept;
 

@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr size_t kMaxMastersJobs = 64;
 
-/// The environment of the processes: only the variables with which they find their libraries.
+/// Environment variables of the inspecting processes: only those that they need to find programs and libraries.
 std::vector<std::string> environmentOfChildren() {
   std::vector<std::string> kept{"LC_ALL=C"};
   for (const char* name : {"PATH", "LD_LIBRARY_PATH"})
@@ -33,17 +33,17 @@ std::vector<std::string> environmentOfChildren() {
   return kept;
 }
 
-/// Calls a callback of the user, and ignores its exceptions, which must not end the host program.
+/// Calls a callback of the inspector's user and ignores its exceptions, which would end the host program.
 template <class... Arguments>
 void call(const std::function<void(Arguments...)>& function, std::type_identity_t<Arguments>... arguments) {
   try {
     if (function) function(std::move(arguments)...);
   } catch (...) {
-    // There is no memory left to report the failure to the caller.
+    // A failing callback cannot be reported to its caller.
   }
 }
 
-/// Returns the result of `say`, or `otherwise` if `say` throws.
+/// The result of say(), or `otherwise` if say() throws.
 template <class Say>
 Inspection saidOr(Inspection& otherwise, const Say& say) noexcept {
   try {
@@ -76,8 +76,8 @@ class ProcessInspector final : public Inspector {
     Upload upload;
     std::function<void()> began;
     std::function<void(Inspection)> done;
-    Inspection out_of_memory;  ///< the answer if memory runs out, made in advance
-    bool stopped = false;      ///< the inspector is ending: the upload is not inspected
+    Inspection out_of_memory;  ///< answer for the case that memory runs out; made in advance
+    bool stopped = false;      ///< whether the inspector is ending, so that the upload is not inspected
   };
   struct MastersJob {
     std::string json;
@@ -96,14 +96,15 @@ class ProcessInspector final : public Inspector {
   void run(Job& job);
   Inspection judge(const Upload& upload) const;
   Inspection judgeMasters(const MastersJob& job) const;
-  /// The answer of a process to its arguments and standard input. text: for an input that is a pipe.
+  /// Runs a process with these arguments and this standard input, and returns its answer. text: the input, if it is a
+  /// pipe.
   Inspection answerTo(std::vector<std::string> arguments, platform::Stream input, std::string_view text,
                       Answer wanted) const;
   void count(const Inspection& said, double seconds);
 
   const InspectorSettings settings_;
   const std::vector<std::string> environment_;
-  /// Requested when the inspector ends, which wakes threads that wait for a process.
+  /// Requested by the destructor; wakes the threads that wait for a process.
   platform::Cancellation stop_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -151,7 +152,7 @@ Result<void> ProcessInspector::wouldTakeLocked(bool program_runs) const {
 }
 
 Result<void> ProcessInspector::wouldTake() const {
-  // Outside the lock, since a file system may block.
+  // Called without the lock, since access to a file system may block.
   const bool program_runs = platform::isProgram(settings_.program);
   const std::lock_guard lock(mutex_);
   return wouldTakeLocked(program_runs);
@@ -166,7 +167,7 @@ Result<void> ProcessInspector::inspect(Upload upload, std::function<void()> bega
     if (const Result<void> takes = wouldTakeLocked(program_runs); !takes) return takes;
     waiting_.push_back(std::move(job));
   } catch (const std::bad_alloc&) {
-    // The text fits into the string's own buffer, so no memory is allocated.
+    // This text is short enough for std::string's internal buffer, so it needs no allocation.
     return Error{Code::limit, "out of memory"};
   }
   changed_.notify_all();
@@ -200,8 +201,9 @@ InspectorCounts ProcessInspector::counts() const {
   return counts;
 }
 
-/// Waits for the next job. Returns nullopt when the inspector is ending and the queue is empty. The caller must destroy
-/// the job outside the lock, because the job may hold the last descriptor of a large file, whose deletion takes time.
+/// Waits for the next job and removes it from the queue. Returns nullopt if the inspector is ending and the queue is
+/// empty. The caller must destroy the job without holding the lock: the job may hold the last descriptor of a large
+/// file, whose deletion takes time.
 template <class AnyJob>
 std::optional<AnyJob> ProcessInspector::take(std::deque<AnyJob>& waiting) {
   std::unique_lock lock(mutex_);
@@ -237,7 +239,7 @@ void ProcessInspector::workOnMasters() {
     call(job->done, saidOr(job->out_of_memory, [&] { return job->stopped ? stoppedProblem() : judgeMasters(*job); }));
 }
 
-/// Counts a finished inspection. Called before `done`, so that a client that has its answer finds it counted.
+/// Adds a finished inspection to the counts. Called before `done`, so that a client with an answer finds it counted.
 void ProcessInspector::count(const Inspection& said, double seconds) {
   const std::lock_guard lock(mutex_);
   --counts_.running;
@@ -253,7 +255,8 @@ void ProcessInspector::count(const Inspection& said, double seconds) {
 
 Inspection ProcessInspector::judge(const Upload& upload) const {
   std::vector<std::string> arguments{"inspect", "--kind=" + std::string(nameOf(upload.kind))};
-  // Joined with '=', because the command line would treat an empty value as missing, and use the next argument instead.
+  // Name and value are joined with '=', so that a value that begins with '-' is not taken for an option. Empty values
+  // are omitted: after `--name=`, the command line would take the next argument as the value.
   if (!upload.name.empty()) arguments.push_back("--name=" + upload.name);
   for (const auto& [name, value] : upload.options)
     if (!value.empty()) arguments.push_back("--" + name + "=" + value);

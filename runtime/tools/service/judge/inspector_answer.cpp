@@ -24,7 +24,7 @@ T numberAt(std::string_view bytes, size_t at) {
   return value;
 }
 
-/// Takes the next of the output's two parts (JSON and preview). nullopt if the part is incomplete.
+/// Removes the next part (JSON or preview) from the process's output. Returns nullopt if the part is incomplete.
 std::optional<std::string_view> takePart(std::string_view& left) {
   if (left.size() < sizeof(uint64_t)) return std::nullopt;
   const uint64_t size = numberAt<uint64_t>(left, 0);
@@ -44,13 +44,14 @@ bool isPreview(std::string_view bytes) {
   return true;
 }
 
-/// The JSON text of the named member's value; empty if there is no such member.
+/// The JSON text of the value of the member `name`; empty if there is no such member.
 std::string_view valueOf(const std::vector<JsonMember>& members, std::string_view name) {
   const auto found = std::ranges::find(members, name, &JsonMember::name);
   return found == members.end() ? std::string_view() : found->value;
 }
 
-/// The status of a problem, if it is one that the process may return; nullopt for any other JSON.
+/// The status of a problem (RFC 9457). Returns nullopt if the JSON is no problem, or has a status that the process must
+/// not use.
 std::optional<int> problemStatus(const std::vector<JsonMember>& members, Answer wanted) {
   for (const char* member : {"type", "title", "code", "detail"})
     if (!valueOf(members, member).starts_with('"')) return std::nullopt;
@@ -76,7 +77,7 @@ Inspection tooMuchSaid(size_t most) {
   return limitReached("the answer is larger than " + std::to_string(most >> 20) + " MB, the limit of the service");
 }
 
-/// Parses the process's output. nullopt if it is not a valid answer of the wanted kind.
+/// Parses a process's output. Returns nullopt if it is not a valid answer of the wanted kind.
 std::optional<Inspection> soundAnswer(std::string_view output, Answer wanted) {
   const std::optional<std::string_view> text = takePart(output), preview = takePart(output);
   if (!text || !preview || !output.empty()) return std::nullopt;
@@ -135,7 +136,7 @@ Inspection outOfMemoryProblem() noexcept {
     said.json = R"({"type":"about:blank","title":"Internal Server Error","status":500,"code":"validator_limit",)"
                 R"("detail":"the service is out of memory: send the request again later"})";
   } catch (const std::bad_alloc&) {
-    // There is no memory even for the problem's text: return the status alone.
+    // There is no memory for the problem's text: return only the status.
   }
   return said;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Parses the output of `sgm inspect`. That process has read untrusted input, so its output is not trusted either.
+// Parses the output of `sgm inspect`. The output is not trusted, since that process has read untrusted input.
 
 #include <chrono>
 #include <cstddef>
@@ -11,24 +11,25 @@
 
 namespace sgm::service {
 
-/// Limit of the process's standard output: uint64 size of the JSON, the JSON, uint64 size of the preview, the preview;
-/// little-endian.
+/// Limit of a process's standard output, which consists of the size of the JSON (uint64), the JSON, the size of the
+/// preview (uint64), and the preview; little-endian.
 inline constexpr size_t kMaxAnswer = size_t{32} << 20;
-/// Limit of a report's JSON, which stays in memory.
+/// Limit of a report's JSON, since reports stay in memory.
 inline constexpr size_t kMaxReportText = size_t{2} << 20;
 
 enum class Answer { report, masters };
 
-/// If the output is not valid, returns a problem of status 500 that tells how the process ended.
+/// The inspection's result from a process's output. If the output is invalid, a problem with status 500 that says how
+/// the process ended.
 Inspection inspectionOf(const platform::ProcessOutput& said, std::chrono::seconds time, Answer wanted);
 
-/// Makes a problem as in RFC 9457. code: identifies it for programs. detail: explains it to users, with the remedy;
-/// invalid UTF-8 is replaced.
+/// Makes a problem (RFC 9457). code: identifier for programs. detail: explanation for users, with the remedy; invalid
+/// UTF-8 is replaced.
 Inspection problemOf(int status, std::string_view code, std::string_view detail);
-/// The problem of status 503 if the service is stopping.
+/// The problem with status 503 that tells that the service is stopping.
 Inspection stoppedProblem();
-/// The problem of status 500 if this process is out of memory. If there is no memory even for its JSON, the JSON is
-/// empty; call this function before memory runs out.
+/// The problem with status 500 that tells that the service is out of memory. Its JSON is empty if there is no memory
+/// for it, so it should be made in advance.
 Inspection outOfMemoryProblem() noexcept;
 
 }  // namespace sgm::service

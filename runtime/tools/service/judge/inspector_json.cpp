@@ -8,11 +8,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Limits that are large enough for valid answers. Deeper nesting could exhaust the stack of a recursive parser.
+/// Limits of nesting and of members. Valid answers stay below them; deeper nesting could overflow the parser's stack.
 constexpr size_t kDeepest = 16;
 constexpr size_t kMaxMembers = 64;
 
-/// Validates a JSON text without storing its values.
+/// Checks the structure of a JSON text without storing its values.
 class Structure final : public nlohmann::json_sax<Json> {
  public:
   bool null() override { return depth_ > 0; }
@@ -35,14 +35,14 @@ class Structure final : public nlohmann::json_sax<Json> {
 
 constexpr std::string_view kSpace = " \t\r\n";
 
-/// The offset after the closing quotation mark of the string that begins at `at`, or the end of the text.
+/// The offset behind the string that begins at `at` (behind its closing quotation mark), or the end of the text.
 size_t behindString(std::string_view text, size_t at) {
   for (++at; at < text.size() && text[at] != '"'; ++at)
     if (text[at] == '\\') ++at;
   return std::min(at + 1, text.size());
 }
 
-/// The offset after the value that begins at `at`, which is that of the next comma or closing bracket.
+/// The offset behind the value that begins at `at`: that of the next comma or closing bracket.
 size_t behindValue(std::string_view text, size_t at) {
   for (size_t depth = 0; at < text.size();) {
     const char c = text[at];

@@ -14,7 +14,7 @@ MastersAnswer answerOf(Inspection said) {
     answer.json = std::make_shared<const std::string>(std::move(said.json));
     answer.status = said.status;
   } catch (const std::bad_alloc&) {
-    // There is no memory for the JSON: the answer keeps its default status, 503.
+    // There is no memory for the JSON: keep the default status, 503.
   }
   return answer;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The reference histograms of the service. The inspector's processes read and write them.
+// Cache of the reference histograms, which the inspector's processes read and write.
 
 #include <chrono>
 #include <functional>
@@ -12,30 +12,30 @@
 
 namespace sgm::service {
 
-/// The answer to a request: status and JSON as in Inspection, shared by all callers.
+/// The answer to a request for the reference histograms: status and JSON as in Inspection. All callers share the JSON.
 struct MastersAnswer {
   int status = 503;
-  std::shared_ptr<const std::string> json;  ///< null: the process is out of memory
+  std::shared_ptr<const std::string> json;  ///< JSON as in Inspection; null if memory has run out
 };
 
-/// Caches the reference histograms: concurrent requests share one process that reads them, and the cached result stays
-/// valid for some seconds. Thread-safe.
+/// Caches the reference histograms for some seconds. Concurrent requests share one process that reads them.
+/// Thread-safe.
 class Masters {
  public:
   using Told = std::function<void(const MastersAnswer&)>;
 
-  /// Inspector must outlive this object, but must have ended its threads before, since these call the `told` functions.
+  /// Contract: the inspector has ended its threads before this object is destroyed, since they call back into it.
   explicit Masters(Inspector& inspector) : inspector_(inspector) {}
 
   void read(Told told);
-  /// Replaces the reference histograms by this JSON, completely or not at all.
+  /// Replaces the reference histograms by those in `json`, completely or not at all.
   void write(std::string json, Told told);
 
-  /// The last result of reading; its status is 0 before the first one.
+  /// The most recent result of reading, or of a successful write(); its status is 0 before the first result.
   MastersAnswer last() const;
 
  private:
-  /// Passes an answer to all waiting callers, even if memory has run out.
+  /// Passes an answer to all waiting callers. Works even if memory has run out.
   void tell(MastersAnswer said);
   void keep(const MastersAnswer& said);
 
@@ -43,7 +43,7 @@ class Masters {
   mutable std::mutex mutex_;
   MastersAnswer last_{0, nullptr};
   std::chrono::steady_clock::time_point when_;
-  std::vector<Told> waiting_;  ///< callers that wait for the process that is reading
+  std::vector<Told> waiting_;  ///< callers that wait for the process that reads the histograms
 };
 
 }  // namespace sgm::service

@@ -64,7 +64,7 @@ std::string nowText() {
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &at)};
 }
 
-/// Names of the members that a report sets itself, in addition to those from the inspection.
+/// Names of the members that a report gets in addition to those from its inspection.
 constexpr std::array<std::string_view, 8> kHeadNames{"id",       "name",  "kind",  "bytes",
                                                      "received", "state", "valid", "seconds"};
 
@@ -83,14 +83,14 @@ struct KeptReport {
   Clock::time_point began{};
   std::optional<double> seconds;  ///< duration of the inspection; nullopt until it has ended
   std::optional<bool> valid;
-  std::string text;           ///< the complete report as JSON, once the inspection has ended
-  std::string out_of_memory;  ///< the report's text if memory runs out, made in advance
+  std::string text;           ///< the complete report as JSON; empty until the inspection has ended
+  std::string out_of_memory;  ///< the report's JSON for the case that memory runs out; made in advance
   std::shared_ptr<const std::string> preview;
 
   bool finished() const { return state != ReportState::waiting && state != ReportState::running; }
   size_t size() const { return text.size() + (preview ? preview->size() : 0); }
 
-  /// The report's object in the list of reports.
+  /// The report's short form (a JSON object) in the list of reports.
   std::string head() const {
     const std::string_view judged = valid.value_or(false) ? "true" : "false";
     const std::array<std::string, kHeadNames.size()> values{jsonString(id),
@@ -109,8 +109,8 @@ struct KeptReport {
 
 namespace {
 
-/// The member "preview": the URL of the preview, with the mesh's data from the inspection; "null" if there is no
-/// preview.
+/// Value of the report's member "preview": the inspection's data on the preview mesh, and its URL; "null" if there is
+/// no preview.
 std::string previewText(const KeptReport& report, std::string_view said) {
   if (!report.preview || !said.starts_with('{')) return "null";
   std::string text = "{";
@@ -120,8 +120,8 @@ std::string previewText(const KeptReport& report, std::string_view said) {
   return text + "}";
 }
 
-/// The finished report: its own members, then the inspection's members. Joined as text, since parsed JSON would need
-/// many times the memory.
+/// The JSON of a finished report: its own members, then those of the inspection. The texts are joined, since parsed
+/// JSON would need many times the memory.
 std::string finishedText(const KeptReport& report, std::string_view said) {
   std::string text = report.head();
   text.pop_back();
@@ -156,7 +156,7 @@ void fill(KeptReport& report, Inspection inspection) {
   report.text = finishedText(report, inspection.json);
 }
 
-/// Sets the report's state to failed for lack of memory. Allocates nothing.
+/// Marks a report as failed because memory has run out. Allocates no memory.
 void failForMemory(KeptReport& report) noexcept {
   report.state = ReportState::failed;
   report.text = std::move(report.out_of_memory);
@@ -169,7 +169,7 @@ std::string outOfMemoryText(KeptReport report) {
 
 }  // namespace
 
-/// The kept reports, newest first.
+/// The stored reports, newest first.
 struct Reports::Kept {
   mutable std::mutex mutex;
   std::list<KeptReport> reports;
@@ -178,8 +178,8 @@ struct Reports::Kept {
     return std::find_if(reports.begin(), reports.end(), [&](const KeptReport& report) { return report.id == id; });
   }
 
-  /// Removes the oldest finished reports, except `wanted`, until the kept reports are within the limits. Returns the
-  /// removed ones.
+  /// Removes the oldest finished reports, except `wanted`, until the stored reports are within the limits. Returns the
+  /// removed reports, so that the caller can free them without the lock.
   std::list<KeptReport> takeSurplus(const KeptReport* wanted) {
     size_t bytes = 0;
     for (const KeptReport& report : reports) bytes += report.size();
@@ -233,7 +233,7 @@ std::string Reports::finish(const std::string& id, Inspection inspection) {
       if (found == kept_->reports.end()) return {};
       report = *found;
     }
-    // Done outside the lock, because it takes some milliseconds.
+    // Done without the lock, because it takes some milliseconds.
     fill(report, std::move(inspection));
     report.out_of_memory = {};
     std::string text = report.text;

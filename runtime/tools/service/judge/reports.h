@@ -1,5 +1,5 @@
 #pragma once
-// The reports on the latest uploads, found by their ids.
+// Stores the reports on recent uploads under their ids.
 
 #include <cstdint>
 #include <memory>
@@ -12,25 +12,25 @@ namespace sgm::service {
 
 enum class ReportState { waiting, running, done, failed, cancelled };
 
-/// Thread-safe. Keeps the last 64 reports, up to 128 MiB; reports on waiting and running uploads are always kept.
+/// Stores the last 64 reports, up to 128 MiB in total. Reports that are not finished are always kept. Thread-safe.
 class Reports {
  public:
   Reports();
   ~Reports();
 
-  /// Adds a report in the state "waiting". Returns its id, 16 unguessable hexadecimal digits.
+  /// Adds a report in the state "waiting". Returns its id: 16 unguessable hexadecimal digits.
   std::string begin(const std::string& name, UploadKind kind, uint64_t bytes);
   void run(const std::string& id);
-  /// Finishes a report. The status of `inspection` sets its state: 200 done, 503 cancelled, otherwise or if memory runs
-  /// out, failed. Returns the report as json() would; empty for an unknown id, or if there is no memory for the copy.
-  /// Throws nothing.
+  /// Finishes a report. The status of `inspection` sets its state: 200 done, 503 cancelled, other values failed; also
+  /// failed if memory runs out. Returns the report as json() would; empty if the id is unknown or there is no memory
+  /// for the copy. Does not throw.
   std::string finish(const std::string& id, Inspection inspection);
 
-  /// A report as a JSON object; nullopt if the id is unknown or its report is no longer kept.
+  /// A report as a JSON object; nullopt if the id is unknown or the report has been removed.
   std::optional<std::string> json(const std::string& id) const;
   /// The preview mesh of a report; null if the id is unknown or the report has no preview.
   std::shared_ptr<const std::string> preview(const std::string& id) const;
-  /// All reports as {"reports": [...]}, newest first, without their measures.
+  /// JSON {"reports": [...]} with all reports, newest first, without their measures.
   std::string list() const;
   size_t size() const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Receives the bodies of requests: uploads into a file, short texts into memory.
+// Receives the bodies of requests: uploads into files, short texts into memory.
 
 #include <atomic>
 #include <cstdint>
@@ -14,14 +14,14 @@
 
 namespace sgm::service {
 
-/// The number of bytes of all bodies of one kind that are being received, and its limit. Bytes are counted, not
-/// requests, so that a slow client cannot block others.
+/// Total number of bytes of all bodies of one kind that are being received, and its limit. Bytes are limited instead of
+/// requests, so that slow clients do not block others.
 struct IncomingRoom {
   std::atomic<uint64_t> taken{0};
   uint64_t most = 0;
 };
 
-/// The bytes that one body has added to an IncomingRoom; the destructor subtracts them. Move-only.
+/// The part of an IncomingRoom that one body uses. The destructor gives it back. Move-only.
 class IncomingShare {
  public:
   explicit IncomingShare(std::shared_ptr<IncomingRoom> room) : room_(std::move(room)) {}
@@ -32,7 +32,7 @@ class IncomingShare {
     if (room_ != nullptr) room_->taken -= taken_;
   }
 
-  /// Adds bytes. If that would exceed the limit, returns the answer to send.
+  /// Adds bytes to the share. If the room's limit would be exceeded, returns the answer to send instead.
   std::optional<http::Response> grow(size_t bytes);
 
  private:
@@ -52,14 +52,14 @@ class UploadBody final : public http::Body {
   IncomingShare share_;
 };
 
-/// Receives a text into memory.
+/// Receives a body as text in memory.
 class TextBody final : public http::Body {
  public:
   explicit TextBody(std::shared_ptr<IncomingRoom> room) : share_(std::move(room)) {}
 
   std::optional<http::Response> take(std::string_view piece) override;
   std::string release() && { return std::move(text_); }
-  /// The text's share of the limit; must be kept as long as the text.
+  /// Returns the text's share of the limit for texts in memory. The caller must keep the share as long as the text.
   IncomingShare releaseShare() && { return std::move(share_); }
 
  private:

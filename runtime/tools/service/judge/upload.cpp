@@ -12,7 +12,7 @@ namespace {
 
 struct KindName {
   UploadKind kind;
-  std::string_view name;  ///< ending of a file's name, without its dot
+  std::string_view name;  ///< file name extension without its dot
 };
 constexpr KindName kNames[] = {
     {UploadKind::glb, "glb"}, {UploadKind::obj, "obj"},     {UploadKind::ply, "ply"},

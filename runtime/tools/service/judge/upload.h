@@ -1,6 +1,6 @@
 #pragma once
-// A file that a client uploads. It is written to disk as it arrives, so it needs no memory, and it disappears when the
-// process ends in any way.
+// A file that a client uploads, written to disk as it arrives. It has no name, so the system deletes it when the
+// process ends, even after a crash.
 
 #include <cstdint>
 #include <optional>
@@ -15,25 +15,25 @@
 namespace sgm::service {
 
 enum class UploadKind { glb, obj, ply, stl, grammar };
-/// The kind's name: "glb", "obj", "ply", "stl", "sgm".
+/// Name of an upload's kind: "glb", "obj", "ply", "stl" or "sgm".
 std::string_view nameOf(UploadKind kind);
-/// The kind of an upload from its content type, or if that is application/octet-stream or empty, from the ending of its
-/// file name. nullopt if unknown.
+/// The kind of an upload, from its content type. If that is empty or application/octet-stream, from the extension of
+/// its file name. nullopt if unknown.
 std::optional<UploadKind> uploadKind(std::string_view content_type, std::string_view name);
 
-/// A file without a name in a folder; the system deletes it when its last descriptor is closed. Move-only.
+/// A file without a name; the system deletes it when its last descriptor is closed. Move-only.
 class Upload {
  public:
-  /// folder: if empty, the system's folder for temporary files. Error: io.
+  /// folder: directory of the file; if empty, the system's directory for temporary files. Error: io.
   static Result<Upload> create(const std::string& folder);
-  /// Error: io (the disk is full).
+  /// Appends bytes to the file. Error: io if the disk is full.
   Result<void> append(std::string_view piece);
-  int file() const { return file_.number(); }  ///< open for reading and writing
+  int file() const { return file_.number(); }  ///< File descriptor, open for reading and writing.
   uint64_t bytes() const { return bytes_; }
 
-  std::string name;  ///< file name that the client sent, for display
+  std::string name;  ///< name of the file as the client sent it, for display
   UploadKind kind = UploadKind::glb;
-  /// For a grammar: the values of "region", "cell", "seed" and "set" as the client sent them.
+  /// Query parameters "region", "cell", "seed" and "set" of a grammar, as the client sent them.
   std::vector<std::pair<std::string, std::string>> options;
 
  private:

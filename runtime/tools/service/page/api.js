@@ -1,11 +1,11 @@
-// Requests to the service. Problems that the service reports become errors. If the service requires a token, the user
-// is asked for it once.
+// HTTP requests to the service. If the service answers with a problem, the request throws it as an error. If the
+// service requires a token, the user is asked for it once.
 
 const tokenKey = 'sgm-token';
 
 /**
- * The reason why a request failed. status: HTTP status, 0 if no answer arrived. code, detail, pointer, ...: as in RFC
- * 9457.
+ * The reason why a request failed. status: HTTP status, or 0 if no answer arrived. Other members, such as code, detail
+ * and pointer: as in the service's answer (RFC 9457).
  */
 export class Problem extends Error {
   constructor(status, body) {
@@ -22,7 +22,7 @@ function problemOf(status, text) {
     const body = JSON.parse(text);
     if (body && typeof body === 'object' && !Array.isArray(body)) return new Problem(status, body);
   } catch {
-    // The answer does not come from the service, but perhaps from a proxy.
+    // The answer is not from the service, but perhaps from a proxy.
   }
   return new Problem(status, { detail: `the service answered ${status} without saying why` });
 }
@@ -32,12 +32,15 @@ export class Api {
   #asked = null;
   #declined = false;
 
-  /** askToken(wrong): returns a promise of the token, or of null if the user gives none. */
+  /**
+   * askToken(wrong): asks the user for a token; returns a promise of the token, or of null if the user enters none.
+   * wrong: whether the service has rejected the previous token.
+   */
   constructor(askToken) {
     this.#askToken = askToken;
   }
 
-  /** Allows the next request that needs a token to ask the user again. */
+  /** If the user has declined to enter a token, lets the next request ask again. */
   askAgain() {
     this.#declined = false;
   }
@@ -53,8 +56,8 @@ export class Api {
   }
 
   /**
-   * Sends a file. Resolves with the report in its current state. progress(sent, whole): called with numbers of bytes.
-   * signal: aborts the upload. XMLHttpRequest is used, because fetch() does not report how many bytes were sent.
+   * Sends a file. Resolves with the file's report in its current state. progress(sent, whole): called with numbers of
+   * bytes. signal: AbortSignal that aborts the upload. Uses XMLHttpRequest, because fetch() does not report progress.
    */
   async upload(path, file, type, progress, signal) {
     for (;;) {
@@ -112,7 +115,9 @@ export class Api {
     return sessionStorage.getItem(tokenKey);
   }
 
-  /** Asks the user for a token. Resolves to true if there is one now. Concurrent requests share one question. */
+  /**
+   * Asks the user for a token. Resolves with true if the user has entered one. Concurrent requests share one dialog.
+   */
   #newToken() {
     if (this.#declined) return false;
     this.#asked ??= this.#askToken(this.#token() !== null).then((token) => {

@@ -1,9 +1,9 @@
-// A cursor in a chart: the user moves it with the pointer or arrow keys, and screen readers read its text.
+// A cursor in a chart, which the user moves with the pointer or the arrow keys. Screen readers read its text.
 
 /**
- * Makes `svg` a slider with `size()` positions. `indexAt(x)` returns the position nearest to x, in the svg's own units.
- * show(index or null): draws the cursor, and returns the text for that position.
- * Returns refresh(), which must be called when the chart's data have changed.
+ * Makes the chart `svg` a slider with size() positions. indexAt(x): returns the position nearest to x, in the svg's
+ * units. show(index): draws the cursor, or hides it if index is null, and returns the text for that position. The
+ * result is a function refresh(), which the caller must call when the chart's data have changed.
  */
 export function addCursor(svg, { label, size, indexAt, show }) {
   let index = null;

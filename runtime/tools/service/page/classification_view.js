@@ -1,4 +1,4 @@
-// Shows the class of a mesh according to its histogram, and how certain the classification is.
+// Shows the class of a mesh, determined from its histogram, and how certain the classification is.
 
 import { element, verdict } from './element.js';
 import { number, percent } from './format.js';
@@ -35,7 +35,7 @@ function classTable({ classes, limits }) {
   );
 }
 
-/** report: a finished report. */
+/** Returns the section with the class. report: a finished report. */
 export function showClassification(report) {
   const node = element(
     'section',

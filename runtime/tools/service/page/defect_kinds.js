@@ -1,10 +1,10 @@
-// The kinds of defects whose places are shown: each has a title, a colour and a sign of its own.
+// The kinds of defects that are marked in the mesh. Each has a title, a colour and a symbol of its own.
 
 import { svg } from './element.js';
 
 /**
- * sign: the outline of the mark, in a square from -1 to 1. edge: whether the mesh view marks the edges with this
- * defect.
+ * title: shown name. colour: class of the mark. sign: shape of the mark. edge: whether the mesh view marks the affected
+ * edges with lines.
  */
 export const defectKinds = {
   open_edge: { title: 'open edge', colour: 'mark-0', sign: 'circle', edge: true },
@@ -36,7 +36,10 @@ const totalKeys = {
   nested: 'nested',
 };
 
-/** Number of defects of a kind. Where a region's border cut the mesh, open edges are expected and not counted. */
+/**
+ * Number of defects of a kind in a mesh. Open edges at a region's border are not counted, since the border cuts the
+ * mesh there.
+ */
 export function totalOf(measures, kind) {
   const total = measures[totalKeys[kind]] ?? 0;
   return kind === 'open_edge' ? total - measures.cut_edges : total;
@@ -98,7 +101,7 @@ const outlines = {
   ],
 };
 
-/** The corners of a kind's sign, in a square from -1 to 1. */
+/** The corners of the symbol of a kind of defect, in a square from -1 to 1. */
 export const outlineOf = (kind) => outlines[kindOf(kind).sign];
 
 export function signNode(kind) {

@@ -1,5 +1,5 @@
-// Makes DOM elements from names and values. Text is always inserted as text, never as HTML, because senders choose the
-// names of uploads freely.
+// Makes DOM elements. Text is always inserted as text, never as HTML, because it may contain file names from any
+// client.
 
 function build(node, options, children) {
   for (const [key, value] of Object.entries(options)) {
@@ -13,8 +13,8 @@ function build(node, options, children) {
 }
 
 /**
- * options: attributes by name; `text`: the content; `on`: {event: listener}. Attributes that are null or false are
- * omitted.
+ * Makes an HTML element. options: attributes by name, and also `text`, the content, and `on`, {event: listener}.
+ * Attributes that are null or false are omitted.
  */
 export function element(tag, options = {}, ...children) {
   return build(document.createElement(tag), options, children);
@@ -26,7 +26,7 @@ export function svg(tag, options = {}, ...children) {
 
 export const byId = (id) => document.getElementById(id);
 
-/** A number in readable form, with its exact value for programs. */
+/** A <data> element: a number as readable text, with its exact value for programs. */
 export function datum(value, text, options = {}) {
   return element('data', { value: String(value), text, ...options });
 }
@@ -40,7 +40,10 @@ const icons = {
   info: 'M8 7V12 M8 4V4.1',
 };
 
-/** A verdict: a sign and a word, in addition to its colour. kind: ok, attention, defect, unknown, waiting, info. */
+/**
+ * A verdict, shown by an icon and a word in addition to its colour. kind: ok, attention, defect, unknown, waiting or
+ * info.
+ */
 export function verdict(kind, text) {
   return element(
     'span',

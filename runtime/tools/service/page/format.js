@@ -11,8 +11,8 @@ const known = (value) => typeof value === 'number' && Number.isFinite(value);
 export const count = (value) => (known(value) ? whole.format(value) : nothing);
 
 /**
- * A number with the given number of significant digits, at most 9; very small and very large numbers have a power of
- * ten.
+ * A number as text with `digits` significant digits, at most 9. Very small and very large numbers are written with a
+ * power of ten.
  */
 export function number(value, digits = 4) {
   if (!known(value)) return nothing;
@@ -44,7 +44,7 @@ export function duration(seconds) {
   return hours > 0 ? `${hours} h ${minutes} min` : `${minutes} min ${Math.floor(seconds % 60)} s`;
 }
 
-/** A number followed by a noun: `one` if the number is 1, otherwise `many`. */
+/** A number and its noun: `one` if the number is 1, otherwise `many`. */
 export const counted = (value, one, many = `${one}s`) => `${count(value)} ${value === 1 ? one : many}`;
 
 export const place = (at) => at.map((x) => number(x, 4)).join(', ');
@@ -56,7 +56,7 @@ export function clock(text) {
   return today ? time.toLocaleTimeString() : time.toLocaleString();
 }
 
-/** The smallest number of the form 1, 2, 2.5 or 5 times a power of ten that is at least `value`. */
+/** Rounds up to the next number of the form 1, 2, 2.5 or 5 times a power of ten, for the ticks of an axis. */
 export function niceStep(value) {
   const power = 10 ** Math.floor(Math.log10(value));
   for (const step of [1, 2, 2.5, 5]) if (step * power >= value * (1 - 1e-9)) return step * power;

@@ -1,5 +1,4 @@
-// Charts of a mesh's histogram, as in the paper, with a reference histogram: bars for the mesh, a line for the
-// reference.
+// Charts of a mesh's histogram together with a reference histogram: bars for the mesh, a line for the reference.
 
 import { addCursor } from './chart_cursor.js';
 import { element, svg } from './element.js';
@@ -9,7 +8,7 @@ const width = 330,
   height = 190;
 const plot = { left: 40, right: width - 8, top: 10, bottom: height - 24 };
 
-/** Shares differ by orders of magnitude: with a square root, small shares are visible beside large ones. */
+/** Scales of the vertical axis. The square root makes small shares visible next to large ones. */
 const scales = { linear: (x) => x, root: Math.sqrt };
 
 const ticksTo = (top) => {
@@ -45,7 +44,7 @@ function grid(top, scale) {
   return { parts, y };
 }
 
-/** The end of the axis: the smallest multiple of 5 %, or below 20 % of 1 %, that is at least the highest share. */
+/** End of the vertical axis: the highest share, rounded up to a multiple of 5 %, or of 1 % if it is at most 20 %. */
 const topOf = (...histograms) => {
   const highest = Math.max(0.01, ...histograms.flat());
   const step = highest > 0.2 ? 0.05 : 0.01;
@@ -53,9 +52,9 @@ const topOf = (...histograms) => {
 };
 
 /**
- * title: heading. shares: of the mesh. master: the reference histogram {name, shares}, or null. top: the highest share
- * of the axis. scale: linear or root.
- * Both histograms must have the same number of bins.
+ * A chart of one histogram. title: heading. shares: the mesh's share in each bin. master: the reference histogram
+ * {name, shares}, or null. top: end of the vertical axis. scale: linear or root. Both histograms must have the same
+ * number of bins.
  */
 function histogram({ title, note, shares, master, top, scale, main }) {
   const shape = scales[scale],
@@ -141,8 +140,9 @@ const legend = (has_masters) =>
   );
 
 /**
- * shares: of the mesh. masters: reference histograms [{class, name, shares}]. found(class): returns {mse, emd}. best:
- * the nearest class.
+ * Charts of the mesh's histogram with each reference histogram. shares: the mesh's share in each bin. masters:
+ * reference histograms [{class, name, shares}]. found(class): returns the distances {mse, emd} to that class. best:
+ * name of the nearest class.
  */
 export function showHistograms({ shares, masters, found, best }) {
   const node = element('div', { class: 'histograms' }),

@@ -1,11 +1,11 @@
-// The samples of a world over the last minutes.
+// The samples of a world over the last five minutes.
 
 export const historySeconds = 300;
 
 export class History {
   #samples = [];
 
-  /** sample.time: seconds, ascending. Samples older than the history are removed. */
+  /** Adds a sample, and removes samples that are older than historySeconds. sample.time: seconds, ascending. */
   add(sample) {
     this.#samples.push(sample);
     const first = this.#samples.findIndex((old) => old.time >= sample.time - historySeconds - 2);

@@ -1,4 +1,4 @@
-// The page: queries the service once a second and shows its state.
+// The main script of the page: queries the service once a second and shows its state.
 
 import { Api } from './api.js';
 import { byId, element } from './element.js';
@@ -34,12 +34,12 @@ function openReport(id) {
   else location.hash = report_mark + id;
 }
 
-/** Shows a report that the user has opened, directly or by a link, and scrolls to it as to a new page. */
+/** Shows a report that the user has selected or followed a link to, and scrolls to it. */
 async function showReport(id) {
   byId('report').focus({ preventScroll: true });
   byId('report').scrollIntoView({ block: 'start' });
   await view.open(id);
-  // Before it was open, the report was too short to reach the top.
+  // Scroll again: until the report was loaded, the page was too short to scroll it to the top.
   byId('report').scrollIntoView({ block: 'start', behavior: 'instant' });
 }
 
@@ -131,7 +131,7 @@ function told({ ok, error, retry }) {
   byId('connection-retry').hidden = ok;
   byId('connection-retry').textContent = wants_token ? 'Enter the token' : 'Try now';
   document.body.classList.toggle('stale', !ok);
-  // The link to a report is followed only when the sections above the report have their final size.
+  // Follow a link to a report only now, when the sections above the report have their final height.
   if (!begun) list.refresh().then(followHash, followHash);
   begun = true;
 }

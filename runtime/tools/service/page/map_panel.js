@@ -1,4 +1,4 @@
-// The map with its controls: all heights or one, zoom, and a legend of the levels of detail.
+// The map with its controls: choice of a height, zoom, and a legend of the levels of detail.
 
 import { datum, element, svg } from './element.js';
 import { count, counted, nothing, number } from './format.js';
@@ -88,7 +88,7 @@ export class MapPanel {
     }).observe(node);
   }
 
-  /** name: of a world; null: no world. */
+  /** Shows the map of a world. name: the world's name, or null for no map. */
   show(name) {
     if (name === this.#world) return;
     this.#world = name;

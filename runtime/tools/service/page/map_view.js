@@ -1,8 +1,8 @@
-// The map: draws chunks on a canvas, as squares seen from above, x to the right and z down.
+// The map of a world: draws its chunks on a canvas as squares, seen from above; x points right, z down.
 
 import { counted, number } from './format.js';
 
-/** Number of colours for levels; coarser levels share the last colour. */
+/** Number of colours for levels of detail; all coarser levels share the last colour. */
 export const levelColours = 9;
 export const colourOfLevel = (level) => `--level-${Math.min(level, levelColours - 1)}`;
 
@@ -15,12 +15,12 @@ export class MapView {
   #map = null;
   #byLevel = [];
   #height = null;
-  #view = null; // the visible part: {x, z: metres at the centre, scale: pixels per metre}; null: the whole map
+  #view = null; // {x, z: centre in metres, scale: pixels per metre}; null: the whole map is visible
   #drawn = 0;
   #asked = false;
   #pointers = new Map();
 
-  /** told(text): receives a description of the chunk under the pointer or at the centre. */
+  /** told(text): called with a description of the chunk under the pointer, or at the centre of the map. */
   constructor(canvas, told) {
     this.#canvas = canvas;
     this.#told = told;
@@ -47,14 +47,14 @@ export class MapView {
     canvas.addEventListener('blur', () => this.#ask());
   }
 
-  /** Number of chunks in the last picture. */
+  /** Number of chunks that the map shows at present. */
   get drawn() {
     return this.#drawn;
   }
 
   /**
-   * map: the answer of /api/v1/worlds/NAME/chunks. height: metres, only chunks at that height are shown; null: all
-   * chunks.
+   * map: answer of /api/v1/worlds/NAME/chunks. height: metres; only chunks that contain this height are shown. null:
+   * all chunks are shown.
    */
   show(map, height) {
     if (this.#map?.name !== map.name) this.#view = null;
@@ -202,7 +202,7 @@ export class MapView {
 
     this.#drawn = 0;
     context.strokeStyle = colour('--map-line');
-    // Coarse levels are drawn first, so that the finest chunk is visible where several lie above each other.
+    // Draw coarse levels first: where chunks lie above each other, the finest one stays visible.
     for (let level = this.#byLevel.length - 1; level >= 0; --level) {
       const meters = this.#width(level),
         size = meters * view.scale;

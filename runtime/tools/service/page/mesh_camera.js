@@ -1,6 +1,6 @@
-// A camera that orbits a target. Matrices are column-major, as WebGL requires.
+// A camera that orbits around a target. Matrices are column-major, as in WebGL.
 
-const field_of_view = 0.7; // radians, from top to bottom
+const field_of_view = 0.7; // vertical field of view in radians
 const steepest = 1.5;
 
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -8,7 +8,7 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const unit = (a) => a.map((x) => x / (Math.hypot(...a) || 1));
 
 export class Camera {
-  /** mesh: {centre, radius}. */
+  /** mesh: {centre, radius}, its bounding sphere. */
   constructor(mesh) {
     this.mesh = mesh;
     this.reset();
@@ -30,7 +30,7 @@ export class Camera {
     this.distance = Math.min(Math.max(this.distance * factor, this.mesh.radius * 0.01), this.mesh.radius * 20);
   }
 
-  /** The view that shows a place closely from outside the mesh: {target, yaw, pitch, distance}. */
+  /** A close view of a place from outside the mesh: {target, yaw, pitch, distance}. */
   closeTo(place) {
     const out = place.map((x, axis) => x - this.mesh.centre[axis]);
     const length = Math.hypot(...out);
@@ -43,7 +43,7 @@ export class Camera {
     };
   }
 
-  /** Interpolates between two such views. part: 0 to 1. */
+  /** Moves the camera to a view between `from` and `to`, as from closeTo(). part: 0 to 1. */
   between(from, to, part) {
     const mix = (a, b) => a + (b - a) * part;
     const turn = Math.atan2(Math.sin(to.yaw - from.yaw), Math.cos(to.yaw - from.yaw));
@@ -63,7 +63,7 @@ export class Camera {
     return this.target.map((x, axis) => x + this.distance * back[axis]);
   }
 
-  /** The matrix from mesh coordinates to clip space. aspect: width divided by height of the picture. */
+  /** Matrix from mesh coordinates to clip space. aspect: the picture's width divided by its height. */
   matrix(aspect) {
     const eye = this.eye,
       back = unit(eye.map((x, axis) => x - this.target[axis]));
@@ -72,7 +72,7 @@ export class Camera {
     const far =
       this.distance + Math.hypot(...this.target.map((x, axis) => x - this.mesh.centre[axis])) + this.mesh.radius * 1.5;
     const near = Math.max(this.distance * 0.02, far * 1e-4);
-    // In a picture that is higher than wide, the sides of the mesh must not be cut off.
+    // If the picture is higher than wide, widen the field of view, so that the sides of the mesh stay visible.
     const f = (1 / Math.tan(field_of_view / 2)) * Math.min(1, aspect);
     const [sx, sy] = [f / aspect, f],
       sz = (far + near) / (near - far),
@@ -99,7 +99,10 @@ export class Camera {
   }
 }
 
-/** The position of a place in pixels: [x, y, depth]; depth is below 0 if the place is behind the camera. */
+/**
+ * Projects a place to the picture: [x, y, depth] with x and y in pixels; depth is negative behind the camera. m: matrix
+ * from Camera.matrix().
+ */
 export function project(m, place, width, height) {
   const [x, y, z] = place,
     w = m[3] * x + m[7] * y + m[11] * z + m[15];

@@ -1,4 +1,4 @@
-// Draws a mesh without WebGL: draws its triangles from far to near on a 2D canvas.
+// Draws a mesh on a 2D canvas, without WebGL, by sorting its triangles from far to near.
 
 import { faceNormal } from './mesh_preview.js';
 import { project } from './mesh_camera.js';
@@ -23,9 +23,7 @@ export function makePainter(canvas, mesh, edges) {
     );
   }
 
-  /**
-   * The cosine between a triangle's normal and the direction to the eye, -1 to 1: above 0, the eye sees the outer side.
-   */
+  /** The cosine between triangle t's normal and the direction to the eye; positive if the eye sees the outer side. */
   function facing(t, eye) {
     const a = 3 * indices[3 * t];
     const to = [eye[0] - positions[a], eye[1] - positions[a + 1], eye[2] - positions[a + 2]];
@@ -52,7 +50,7 @@ export function makePainter(canvas, mesh, edges) {
 
   return {
     name: 'canvas',
-    /** The same interface as the WebGL renderer's; but shading is always flat. */
+    /** Draws the mesh. Takes the same options as the WebGL renderer, but the shading is always flat. */
     draw({ matrix, eye, colours, ratio }) {
       context.fillStyle = css(colours.ground, 1);
       context.fillRect(0, 0, canvas.width, canvas.height);
@@ -78,7 +76,7 @@ export function makePainter(canvas, mesh, edges) {
         context.lineTo(screen[c], screen[c + 1]);
         context.closePath();
         context.fill();
-        context.stroke(); // closes the gaps that antialiasing leaves between triangles
+        context.stroke(); // covers the gaps that antialiasing leaves between adjacent triangles
       }
       paintLines(matrix, colours, ratio);
     },

@@ -1,11 +1,11 @@
-// Reads a preview mesh from the bytes of /api/v1/reports/ID/preview.
+// Parses a preview mesh from the bytes of /api/v1/reports/ID/preview.
 
 const magic = 'SGMPREV1';
 
 /**
- * Normals of the points, weighted by the triangles' areas, scaled to length 1; 0 if all areas are 0. They must be
- * scaled: at the rim of a thin triangle the rasterizer extrapolates beyond its corners, and between normals of very
- * different lengths the result would have an arbitrary direction and appear as a dark speck.
+ * Unit normals of the vertices, weighted by the areas of the adjacent triangles; 0 if all these areas are 0. Without
+ * the scaling to unit length, dark specks would appear at the rim of thin triangles: the rasterizer extrapolates there,
+ * and between normals of very different lengths the result has an arbitrary direction.
  */
 function normalsOf(positions, indices) {
   const normals = new Float32Array(positions.length);
@@ -21,7 +21,10 @@ function normalsOf(positions, indices) {
   return normals;
 }
 
-/** The normal of a triangle; its length is twice the triangle's area. */
+/**
+ * The normal of a triangle; its length is twice the triangle's area. i: index of the triangle's first entry in
+ * `indices`.
+ */
 export function faceNormal(positions, indices, i) {
   const [a, b, c] = [3 * indices[i], 3 * indices[i + 1], 3 * indices[i + 2]];
   const ux = positions[b] - positions[a],
@@ -34,8 +37,8 @@ export function faceNormal(positions, indices, i) {
 }
 
 /**
- * Returns {positions, indices, normals, centre, radius}; positions are relative to the preview's origin. Throws an
- * error if the bytes are invalid.
+ * Parses the bytes of a preview into {positions, indices, normals, centre, radius}. Positions are relative to the
+ * preview's origin. Throws an error if the bytes are invalid.
  */
 export function readPreview(buffer) {
   const view = new DataView(buffer);
@@ -68,8 +71,8 @@ export function readPreview(buffer) {
 }
 
 /**
- * Finds the edges of each kind of defect in a mesh: {open_edge, nonmanifold_edge, turned_edge}, arrays of [x, y, z, x,
- * y, z]. Points at the same place count as one point, as in the service's measures.
+ * Finds the edges with defects in a mesh: {open_edge, nonmanifold_edge, turned_edge}; each is an array of lines [x, y,
+ * z, x, y, z]. Vertices with equal positions count as one vertex, as in the service's measures.
  */
 export function defectEdges({ positions, indices }) {
   const ids = new Map(),
@@ -79,7 +82,7 @@ export function defectEdges({ positions, indices }) {
     if (!ids.has(key)) ids.set(key, i);
     same[i] = ids.get(key);
   }
-  const edges = new Map(); // by both points: how many triangles use the edge in each direction
+  const edges = new Map(); // for each pair of vertices: the number of triangles that use the edge in each direction
   for (let i = 0; i < indices.length; ++i) {
     const from = same[indices[i]],
       to = same[indices[i % 3 === 2 ? i - 2 : i + 1]];

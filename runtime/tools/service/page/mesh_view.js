@@ -1,4 +1,4 @@
-// The view of an uploaded mesh, turned by the pointer, by keys, or automatically, with marks at its defects.
+// The 3D view of an uploaded mesh, with marks at its defects. It turns by itself, or by the pointer or keys.
 
 import { datum, element, reducedMotion, svg } from './element.js';
 import { count, counted } from './format.js';
@@ -10,12 +10,15 @@ import { makeWebglRenderer } from './mesh_webgl.js';
 
 const turn_speed = 0.35; // radians per second
 const way_seconds = 0.6;
-/** If drawing takes more milliseconds than this, the view does not turn automatically. */
+/** If drawing takes more milliseconds than this, the view does not turn by itself. */
 const slow = 120;
 
 const channels = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
 
-/** The edges with defects of kinds that the service has found too. Empty unless the preview is the whole mesh. */
+/**
+ * Lines along the edges with defects, by kind of defect. Only for kinds that the report counts; none if the preview is
+ * not the whole mesh.
+ */
 function markedEdges(mesh, report) {
   const { preview, measures } = report;
   const edges = { open_edge: [], nonmanifold_edge: [], turned_edge: [] };
@@ -47,7 +50,7 @@ export class MeshView {
   #observers = [];
   #note = element('p', { class: 'muted view-note' });
 
-  /** mesh: from readPreview(). report: its report. */
+  /** mesh: result of readPreview(). report: the mesh's report. */
   constructor(mesh, report) {
     this.#mesh = mesh;
     this.#camera = new Camera(mesh);
@@ -122,7 +125,7 @@ export class MeshView {
     this.#renderer.dispose();
   }
 
-  /** Moves the camera to a place of the report. */
+  /** Moves the camera to the defect report.measures.places[index]. */
   focus(index) {
     this.#chosen = index;
     this.#setTurning(false);
@@ -146,7 +149,7 @@ export class MeshView {
   }
 
   #lost() {
-    if (this.#observers.length === 0) return; // dispose() has released the context intentionally
+    if (this.#observers.length === 0) return; // ignore the event if dispose() has released the context intentionally
     this.#useRenderer(true);
     this.#ask();
   }

@@ -1,4 +1,4 @@
-// Draws a mesh with WebGL: its surface, lit from the camera, and lines along its defects.
+// Draws a mesh with WebGL: its surface, lit from the camera, and lines along the edges with defects.
 
 const surface_vertex = `
 attribute vec3 position;
@@ -20,7 +20,8 @@ void main() {
   float light = 0.32 + 0.5 * max(dot(n, to_eye), 0.0) + 0.18 * max(dot(n, normalize(vec3(0.4, 0.9, 0.3))), 0.0);
   gl_FragColor = vec4((gl_FrontFacing ? outside : inside) * light, 1.0);
 }`;
-// A line is drawn as two triangles: each corner has both ends of the line, and moves half the line's width sideways.
+// A line is drawn as two triangles. Each vertex has both ends of the line as attributes, and is moved sideways by half
+// the line's width.
 const line_vertex = `
 attribute vec3 from, to;
 attribute vec2 corner;
@@ -61,7 +62,7 @@ function buffer(gl, values) {
   return made;
 }
 
-/** The corners of all triangles without sharing: for flat shading, each corner needs the normal of its own triangle. */
+/** Copies the vertices for each triangle: with flat shading, a vertex needs the normal of its own triangle. */
 function unrolled({ positions, normals, indices }, faceNormal) {
   const corners = new Float32Array(3 * indices.length),
     smooth = new Float32Array(3 * indices.length);
@@ -104,8 +105,8 @@ function lineBuffers(gl, segments) {
 }
 
 /**
- * Returns null without WebGL. edges: {kind: [[x, y, z, x, y, z]]}. lost(): called when the device is lost, to draw by
- * other means.
+ * Makes a renderer; null if WebGL is not available. edges: {kind: [[x, y, z, x, y, z]]}. lost(): called when the WebGL
+ * context is lost, so that the caller can draw by other means.
  */
 export function makeWebglRenderer(canvas, mesh, edges, faceNormal, lost) {
   const gl = canvas.getContext('webgl', { antialias: true, preserveDrawingBuffer: true });
@@ -143,7 +144,10 @@ export function makeWebglRenderer(canvas, mesh, edges, faceNormal, lost) {
 
   return {
     name: 'WebGL',
-    /** colours: outside, inside, ground: [r, g, b], each 0 to 1; marks: colours of the kinds of edges. */
+    /**
+     * Draws the mesh. colours: outside, inside and ground as [r, g, b], each 0 to 1; marks: a colour for each kind of
+     * edge.
+     */
     draw({ matrix, eye, colours, flat: is_flat, ratio }) {
       gl.viewport(0, 0, canvas.width, canvas.height);
       gl.clearColor(...colours.ground, 1);
@@ -159,7 +163,7 @@ export function makeWebglRenderer(canvas, mesh, edges, faceNormal, lost) {
       feed(surface, 'normal', is_flat ? buffers.flat : buffers.smooth, 3);
       gl.drawArrays(gl.TRIANGLES, 0, count);
       drawLines(matrix, colours, ratio, 1);
-      // Draw the lines again without depth test and faintly, so that they shine through the surfaces that hide them.
+      // Draw the lines once more without depth test, but faintly, so that they are visible behind surfaces.
       gl.disable(gl.DEPTH_TEST);
       gl.enable(gl.BLEND);
       gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);

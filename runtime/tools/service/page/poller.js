@@ -1,4 +1,4 @@
-// Repeats a query: not while the tab is hidden, and at growing intervals while the service does not answer.
+// Repeats a query. Pauses while the tab is hidden, and waits longer and longer while the service does not answer.
 
 const longestWait = 15000;
 
@@ -11,9 +11,8 @@ export class Poller {
   #failures = 0;
 
   /**
-   * ask(): returns a promise. told({ok, error, retry}): called after each query; retry: milliseconds until the next
-   * one.
-   * period: milliseconds between two queries while they succeed.
+   * ask(): sends the query and returns a promise. told({ok, error, retry}): called after each query; retry:
+   * milliseconds until the next query. period: milliseconds between successful queries.
    */
   constructor(ask, period, told = () => {}) {
     this.#ask = ask;
@@ -22,7 +21,7 @@ export class Poller {
     document.addEventListener('visibilitychange', () => (document.hidden ? this.#stop() : this.now()));
   }
 
-  /** Queries immediately, and then periodically. */
+  /** Sends a query immediately, and then periodically. */
   now() {
     this.#stop();
     if (!document.hidden && !this.#asking) this.#run();

@@ -1,10 +1,10 @@
-// Shows why the service rejected a request.
+// Shows why the service has rejected a request.
 
 import { element } from './element.js';
 import { nothing } from './format.js';
 import { table } from './table.js';
 
-/** problem: the object of type application/problem+json. */
+/** problem: parsed body of an answer of type application/problem+json. */
 export function showProblem(problem) {
   const facts = [
     ['Status', problem.status ? `${problem.status} ${problem.title ?? ''}` : null],

@@ -1,10 +1,10 @@
-// The list of the reports that the service keeps, from all clients.
+// The list of all reports that the service stores, from all clients.
 
 import { element, verdict } from './element.js';
 import { bytes, clock, duration, nothing } from './format.js';
 import { table } from './table.js';
 
-/** The verdict on an upload, or on a report. Its argument may also be an entry of the list. */
+/** The verdict on an upload. The argument may be an upload, a report or an entry of the list of reports. */
 export function stateVerdict({ state, valid }) {
   if (state === 'done') return valid ? verdict('ok', 'valid') : verdict('defect', 'not valid');
   if (state === 'failed') return verdict('attention', 'refused');
@@ -18,7 +18,7 @@ export class ReportList {
   #open;
   #shown = '';
 
-  /** open(id): called when the user selects a report. */
+  /** api: sends requests. node: element for the list. open(id): called when the user selects a report. */
   constructor(api, node, open) {
     this.#api = api;
     this.#node = node;
@@ -28,7 +28,7 @@ export class ReportList {
 
   async refresh() {
     const { reports } = await this.#api.json('/api/v1/reports');
-    // Unchanged entries stay in the document, so that a keyboard user does not lose the focus.
+    // If the list has not changed, keep its elements in the document, so that a keyboard user does not lose the focus.
     const shown = JSON.stringify(reports);
     if (shown === this.#shown) return;
     this.#shown = shown;

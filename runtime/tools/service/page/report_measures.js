@@ -1,4 +1,4 @@
-// The measures of an uploaded mesh as a table with a verdict for each, and the overall verdict in words.
+// Table of an uploaded mesh's measures, each with a verdict, and the overall verdict in words.
 
 import { totalOf } from './defect_kinds.js';
 import { datum } from './element.js';
@@ -20,7 +20,7 @@ const inWords = [
   [(m) => !m.complete, 'Not sure: not all could be looked at'],
 ];
 
-/** The verdict {kind, text} of a finished report. */
+/** The overall verdict {kind, text} of a finished report. */
 export function verdictInWords({ valid, measures }) {
   if (valid && measures.cut_edges > 0) return { kind: 'ok', text: 'Valid: closed but for the border of the region' };
   if (valid) return { kind: 'ok', text: 'Valid: the closed surface of a solid' };
@@ -31,7 +31,7 @@ export function verdictInWords({ valid, measures }) {
   };
 }
 
-/** unit: unit of lengths; empty if the file does not state one. */
+/** unit: unit of lengths, or empty if the uploaded file does not state one. */
 export function showReportMeasures(measures, unit) {
   const m = measures,
     powered = (power) => (unit ? unit + power : power ? `unit${power}` : 'units');

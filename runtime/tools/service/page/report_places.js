@@ -1,10 +1,10 @@
-// The list of places with defects. Selecting an entry moves the camera of the mesh view there.
+// The list of the places with defects. If the user selects an entry, the mesh view moves its camera to the place.
 
 import { element } from './element.js';
 import { count, counted, place } from './format.js';
 import { kindOf, signNode, totalOf } from './defect_kinds.js';
 
-/** focus(index): called to show measures.places[index]. */
+/** focus(index): called when the user selects measures.places[index]. */
 export function showPlaces(measures, focus) {
   const places = measures.places ?? [];
   const node = element('div', { class: 'places' });

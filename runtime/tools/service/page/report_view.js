@@ -1,4 +1,4 @@
-// One report: its verdict, the view of its mesh with defects, its measures, its histogram.
+// Shows one report: its verdict, the mesh with its defects, its measures and its histogram.
 
 import { Problem } from './api.js';
 import { byId, datum, element, verdict } from './element.js';
@@ -27,7 +27,7 @@ export class ReportView {
     this.#api = api;
   }
 
-  /** Waits until a report is finished, and shows it. */
+  /** Shows the report with this id. Waits until the report is finished. */
   async open(id) {
     this.#wanted = id;
     try {

@@ -1,9 +1,9 @@
-// Tables of measures: name, value, and verdict.
+// Tables of measures, with a name, a value and a verdict in each row.
 
 import { datum, element, verdict } from './element.js';
 import { count, percent } from './format.js';
 
-/** columns: titles. rows: arrays of nodes or texts; the first element is the row's heading. */
+/** columns: titles of the columns. rows: arrays of DOM nodes or texts; the first element is the row's heading. */
 export function table(caption, columns, rows, options = {}) {
   const cell = (tag, content, attributes) => {
     const node = element(tag, attributes);
@@ -31,7 +31,7 @@ export function table(caption, columns, rows, options = {}) {
 
 const words = { ok: 'ok', attention: 'attention', defect: 'defect', info: '' };
 
-/** A row of a table of measures. kind: ok, attention, defect, or info, which is neutral. */
+/** A row of a table of measures. kind: verdict ok, attention or defect, or info if there is no verdict. */
 export function measureRow(name, value, unit, kind, why = '') {
   const judged =
     kind === 'info'
@@ -40,7 +40,10 @@ export function measureRow(name, value, unit, kind, why = '') {
   return [name, value, unit, judged];
 }
 
-/** Row for thin triangles: every mesh from a grid has a few, so only a large share gets the verdict "attention". */
+/**
+ * The row for the number of sliver triangles. Every mesh from a grid has a few, so only a large share gets the verdict
+ * "attention".
+ */
 export function sliverRow(slivers, triangles) {
   const share = triangles > 0 ? slivers / triangles : 0;
   const why = slivers > 0 ? `${percent(share, 2)} of the triangles` : '';

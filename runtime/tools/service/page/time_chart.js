@@ -1,4 +1,4 @@
-// A chart of a few quantities over the last five minutes.
+// A chart of some quantities over the last five minutes.
 
 import { addCursor } from './chart_cursor.js';
 import { element, svg } from './element.js';
@@ -9,8 +9,8 @@ const width = 360,
   height = 170;
 const plot = { left: 46, right: width - 10, top: 10, bottom: height - 26 };
 /**
- * If there is no sample for more seconds than this, the line is interrupted: the tab was hidden, or the service did not
- * run.
+ * The line is interrupted where no sample was taken for more than this number of seconds, because the tab was hidden or
+ * the service did not run.
  */
 const gap = 4;
 
@@ -33,10 +33,10 @@ export class TimeChart {
   #note;
 
   /**
-   * series: [{key, label}], key: member of the samples. format(value): text of a value with its unit.
-   * axis(top): returns {name, size}, the unit of the axis for a highest value. least: minimum of the axis's end.
-   * limit: key of a value that is drawn as a bound where other values come near it. note(sample): one more line of
-   * text.
+   * series: [{key, label}], key: name of the value in a sample. format(value): text of a value with its unit.
+   * axis(top): returns {name, size}, the axis's unit if its highest value is top. least: minimum for the end of the
+   * axis. limit: name of a value in a sample, drawn as a bound if the other values come near it. note(sample): returns
+   * an additional line of text.
    */
   constructor({ title, series, format, axis, least = 1, limit = null, note = null }) {
     this.#series = series;
@@ -90,7 +90,7 @@ export class TimeChart {
     });
   }
 
-  /** samples: oldest first, each with `time`. now: the current time on the same clock. */
+  /** Redraws the chart. samples: oldest first, each with `time`. now: current time on the same clock as sample.time. */
   update(samples, now) {
     this.#samples = samples;
     this.#now = now;

@@ -1,10 +1,10 @@
-// Asks the user for the service's token.
+// Dialog that asks the user for the service's token.
 
 import { byId } from './element.js';
 
 /**
- * Returns a promise of the entered text, or of null if the user cancels. wrong: the service has rejected the last
- * token.
+ * Returns a promise of the text that the user enters, or of null if the user cancels. wrong: whether the service has
+ * rejected the previous token.
  */
 export function askToken(wrong) {
   const dialog = byId('token-dialog'),

@@ -1,4 +1,4 @@
-// The panel in which the user chooses files or drops them, and which shows the progress of each.
+// The panel in which the user selects or drops files. Shows the progress of each upload.
 
 import { byId, element, verdict } from './element.js';
 import { bytes, percent } from './format.js';
@@ -23,8 +23,8 @@ export class UploadPanel {
   #limit = element('span');
 
   /**
-   * open(id): called when the user selects a report. finished(upload): called when the upload is judged, rejected or
-   * cancelled.
+   * open(id): called when the user selects a report. finished(upload): called when an upload has been judged, rejected
+   * or cancelled.
    */
   constructor(api, node, { open, finished }) {
     this.#open = open;
@@ -101,7 +101,7 @@ export class UploadPanel {
 
   #takeDrops() {
     const veil = byId('drop-veil');
-    let depth = 0; // enter and leave events occur for every element that the pointer crosses
+    let depth = 0; // counts elements under the dragged file: enter and leave events occur for each nested element
     const holdsFiles = (event) => event.dataTransfer?.types.includes('Files');
     const show = (shown) => {
       veil.hidden = !shown;

@@ -1,4 +1,4 @@
-// The queue of files to upload: one file is sent at a time, and each can be cancelled until it has been sent.
+// Queue of files to upload. One file is sent at a time; each can be cancelled until it has been sent.
 
 import { bytes } from './format.js';
 
@@ -18,7 +18,9 @@ const pause = (milliseconds) =>
     setTimeout(resolve, milliseconds);
   });
 
-/** The end of a file name, shortened to the 255 bytes of UTF-8 that the service accepts; it keeps the extension. */
+/**
+ * Shortens a file name to the 255 bytes of UTF-8 that the service accepts. It keeps the end, because of the extension.
+ */
 function shortName(name) {
   let kept = name;
   while (new TextEncoder().encode(kept).length > 255) kept = kept.slice(1);
@@ -26,7 +28,8 @@ function shortName(name) {
 }
 
 /**
- * An upload of one file. state: queued, sending, judging, done, failed, cancelled. sent: bytes. problem: why it failed.
+ * The upload of one file. state: queued, sending, judging, done, failed or cancelled. sent: number of bytes sent.
+ * problem: why the upload failed.
  */
 export class Upload {
   constructor(file, options) {
@@ -51,18 +54,18 @@ export class Uploads {
   #sending = false;
   #maxBytes = Infinity;
 
-  /** told(upload): called whenever the state of an upload has changed. */
+  /** told(upload): called whenever an upload's state has changed. */
   constructor(api, told) {
     this.#api = api;
     this.#told = told;
   }
 
-  /** Sets the maximum size that the service accepts. Larger files are not sent at all. */
+  /** Sets the maximum file size that the service accepts. Larger files fail without being sent. */
   limit(max_bytes) {
     this.#maxBytes = max_bytes;
   }
 
-  /** options: parameters for grammars, [[name, value]]. */
+  /** Adds files to the queue. options: query parameters for grammars, [[name, value]]. */
   add(files, options) {
     for (const file of files) {
       const upload = new Upload(file, endingOf(file.name) === 'sgm' ? options : []);
@@ -72,7 +75,7 @@ export class Uploads {
     this.#run();
   }
 
-  /** Cancels an upload. Does nothing once the file has been sent completely: the service then judges it to the end. */
+  /** Cancels an upload. Has no effect once the file has been sent completely: the service then always judges it. */
   cancel(upload) {
     if (upload.state === 'queued') this.#set(upload, 'cancelled');
     if (upload.state === 'sending') upload.abort.abort();
@@ -83,7 +86,7 @@ export class Uploads {
     this.#told(upload);
   }
 
-  /** The reason why the service would reject a file, if it is known before sending; otherwise null. */
+  /** The reason why the service would reject a file, if it is known before the file is sent; otherwise null. */
   #whyNot({ name, size }) {
     if (!(endingOf(name) in types))
       return `This file cannot be validated: the service takes ${endings.map((ending) => `.${ending}`).join(', ')}`;
@@ -128,7 +131,7 @@ export class Uploads {
     }
   }
 
-  /** Waits until the report is finished. The next file is sent meanwhile. */
+  /** Waits until the upload's report is finished. Meanwhile, the next file is sent. */
   async #follow(upload) {
     try {
       for (let wait = 100; ['waiting', 'running'].includes(upload.report.state); wait = Math.min(wait * 1.5, 1000)) {

@@ -1,4 +1,4 @@
-// The charts of a world, and the data of the summary that they show.
+// The charts of a world, and the conversion of the service's summary to their samples.
 
 import { bytes, byteUnit, count, number, percent } from './format.js';
 import { TimeChart } from './time_chart.js';
@@ -7,7 +7,7 @@ const plain = (name) => () => ({ name, size: 1 });
 const perSecond = (value) => `${number(value, 3)}/s`;
 const milliseconds = (value) => `${number(value, 3)} ms`;
 
-/** One sample for the charts. time: seconds. world: an element of /api/v1/summary. */
+/** Makes one sample for the charts. time: seconds. world: an element of `worlds` in /api/v1/summary. */
 export function sampleOf(world, time) {
   return {
     time,

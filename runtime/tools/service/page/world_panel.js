@@ -1,11 +1,11 @@
-// The description of a world apart from its charts: its properties, and its measures with verdicts.
+// The description of a world: its properties, and its measures with verdicts. The charts are not part of it.
 
 import { datum, element } from './element.js';
 import { bytes, count, counted, nothing, number, percent } from './format.js';
 import { measureColumns, measureRow, sliverRow, table } from './table.js';
 
 const frame_ms = 1000 / 60;
-/** Limit of the main thread's time in the runtime, for 99 % of its updates. */
+/** Limit for the main thread's time in the runtime, in milliseconds, that 99 % of the updates should keep. */
 const p99_limit_ms = 2;
 
 function facts(world) {

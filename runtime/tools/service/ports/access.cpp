@@ -20,7 +20,7 @@ bool isLetterOrDigit(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <
 
 enum class Numbers { none, four, six };
 
-/// Whether a text is a numeric IPv4 or IPv6 address; sets `bytes` to the address.
+/// Whether a text is a numeric IPv4 or IPv6 address. Sets `bytes` to the address if it is one.
 Numbers numbersOf(std::string_view text, std::array<unsigned char, 16>& bytes) {
   const std::string ended(text);
   if (inet_pton(AF_INET, ended.c_str(), bytes.data()) == 1) return Numbers::four;
@@ -38,8 +38,8 @@ bool isHostName(std::string_view name) {
          std::all_of(name.begin(), name.end(), [](char c) { return isLetterOrDigit(c) || c == '-' || c == '.'; });
 }
 
-/// The host name in the value of a Host field, without port and brackets; empty if anything other than a port follows
-/// the name.
+/// The host name in the value of a Host header, without port and brackets. Empty if the name is followed by something
+/// other than a port.
 std::string_view nameOf(std::string_view host) {
   std::string_view name, rest;
   if (host.starts_with('[')) {
@@ -56,7 +56,7 @@ std::string_view nameOf(std::string_view host) {
   return rest.empty() || port ? name : std::string_view{};
 }
 
-/// Compares two secrets in a time that does not depend on where they differ.
+/// Compares two secrets in constant time, so that the time does not reveal where they differ.
 bool equalInSecret(std::string_view a, std::string_view b) {
   unsigned difference = a.size() == b.size() ? 0 : 1;
   for (size_t i = 0; i < a.size(); ++i)
@@ -111,8 +111,8 @@ Result<Access> Access::create(const AccessSettings& settings) {
 bool Access::isOurs(std::string_view host) const {
   const std::string_view name = nameOf(host);
   std::array<unsigned char, 16> bytes{};
-  // A foreign site can let its own host name resolve to our address, but a numeric address in Host is that of this
-  // machine.
+  // Accept any numeric address in the Host header: DNS rebinding, in which a foreign site's host name resolves to this
+  // machine, sends a name and not a number.
   if (any_address_ && numbersOf(name, bytes) != Numbers::none) return true;
   return std::find(names_.begin(), names_.end(), inSmallLetters(name)) != names_.end();
 }

@@ -14,7 +14,7 @@ enum OperationsEndpoint { metrics, health, readiness };
 constexpr Route kOperationsRoutes[] = {
     {"/metrics", "GET, HEAD", metrics}, {"/healthz", "GET, HEAD", health}, {"/readyz", "GET, HEAD", readiness}};
 
-/// The answer about readiness. detailed: includes the checks; only for clients that may know what runs here.
+/// The answer to a readiness request. detailed: whether it lists the checks, which only authorized clients may see.
 http::Response readinessOf(const std::vector<Check>& checks, bool detailed) {
   bool ready = true, degraded = false;
   nlohmann::json list = nlohmann::json::array();
@@ -36,7 +36,8 @@ Operations::Operations(OperationsParts parts)
 http::Admission Operations::admit(const http::Request& request) {
   http::Admission admission;
   std::variant<Routed, http::Response> found = routed(kOperationsRoutes, request);
-  // Health probes with HTTP/1.0 send no Host field, but every browser does; so a request without it is allowed.
+  // Allow health probes without a Host header: HTTP/1.0 probes send none, but every browser does, so no foreign page
+  // can omit it.
   const bool probe = !request.field("Host") && !request.field("Origin") && std::holds_alternative<Routed>(found) &&
                      std::get<Routed>(found).route->endpoint != metrics;
   if (!probe) admission.refusal = parts_.access.refuse(request);

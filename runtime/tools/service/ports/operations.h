@@ -1,6 +1,6 @@
 #pragma once
-// The HTTP port for operators: liveness, readiness and metrics. It has a thread of its own, so that uploads and slow
-// clients do not delay it.
+// The HTTP port for operators: liveness, readiness and metrics. Its server has its own thread, so that uploads and slow
+// clients of the other port do not delay it.
 
 #include <functional>
 #include <memory>
@@ -12,17 +12,17 @@
 
 namespace sgm::service {
 
-/// The state of something on which the service depends.
+/// The state of a component on which the service depends.
 struct Check {
   std::string name;
   bool ok = true;
-  bool needed = false;  ///< if true, the service is not ready while ok is false; otherwise it is degraded
+  bool needed = false;  ///< whether the service is not ready if ok is false; otherwise it is only degraded
   std::string detail;
 };
 
 struct OperationsParts {
   const Access& access;
-  std::function<std::string()> metrics;  ///< returns the metrics in Prometheus' text format
+  std::function<std::string()> metrics;  ///< returns the metrics in Prometheus's text format
   std::function<std::vector<Check>()> checks;
 };
 

@@ -3,7 +3,7 @@
 namespace sgm::service {
 namespace {
 
-/// Removes and returns the text before the next '/', and removes that '/' too.
+/// Removes the first segment of the path and the '/' behind it, and returns the segment.
 std::string_view takeSegment(std::string_view& path) {
   const size_t end = path.find('/');
   const std::string_view segment = path.substr(0, end);

@@ -21,8 +21,7 @@ using http::Request;
 using http::Response;
 
 constexpr uint64_t kMaxMastersBytes = uint64_t{4} << 20;
-/// Maximum number of sets of reference histograms that are being received or wait to be written, since they are held in
-/// memory.
+/// Maximum number of sets of reference histograms that are in memory: being received, or waiting to be written.
 constexpr uint64_t kMastersAtOnce = 4;
 constexpr size_t kLongestName = 255;
 
@@ -52,8 +51,8 @@ const EmbeddedFile* fileNamed(std::string_view name) {
   return nullptr;
 }
 
-/// The embedded file for a path of the page; null if there is none. The description of the interface is embedded too,
-/// but is not part of the page.
+/// The embedded file of the web page for this path; null if there is none. The description of the HTTP interface is
+/// embedded too, but does not belong to the page.
 const EmbeddedFile* pageFile(std::string_view path) {
   const std::string_view name = path == "/" ? "index.html" : path.substr(1);
   return name.ends_with(".json") ? nullptr : fileNamed(name);
@@ -87,7 +86,7 @@ Response responseOf(const MastersAnswer& said) {
   return response;
 }
 
-/// The answer that reports a failed inspection. Never throws: without memory, the answer has no text.
+/// The answer for a failed inspection. Never throws: if memory has run out, the answer has no text.
 Response problemOf(const Inspection& said) noexcept {
   Response response;
   response.status = said.status;
@@ -101,7 +100,7 @@ Response problemOf(const Inspection& said) noexcept {
   return response;
 }
 
-/// The answer that explains why an upload is not accepted now.
+/// The answer that tells why an upload is not accepted at present.
 Response refusalOf(const Error& error) {
   const bool full = error.code == Code::limit;
   Response response = makeResponse(Problem{503, full ? "queue_full" : "no_validator", error.message, ""});
@@ -115,7 +114,7 @@ Admission refused(Response response) {
   return admission;
 }
 
-/// Whether the request's Prefer field asks for an answer before the inspection has ended (RFC 7240, respond-async).
+/// Whether the header Prefer asks for an answer before the inspection has ended (respond-async, RFC 7240).
 bool wantsNoWait(const Request& request) {
   for (const http::Field& field : request.fields) {
     if (inSmallLetters(field.name) != "prefer") continue;
@@ -146,7 +145,7 @@ Admission Work::admit(const Request& request) {
     return refused(std::get<Response>(routed(kFile, request)));
   }
   std::variant<Routed, Response> found = routed(kRoutes, request);
-  // Check the token before the path, because a client without the token must not learn which paths exist.
+  // Check the token before the path: a client without the token must not learn which paths exist.
   if (std::optional<Response> refusal = parts_.access.refuseStranger(request)) return refused(std::move(*refusal));
   if (std::holds_alternative<Response>(found)) return refused(std::get<Response>(std::move(found)));
   switch (std::get<Routed>(found).route->endpoint) {
@@ -265,7 +264,7 @@ void Work::judge(const Request& request, std::unique_ptr<http::Body> body, Reply
       [&kept, id, location, waits, reply](Inspection said) {
         std::optional<Response> problem;
         if (waits && said.status != 200) problem = problemOf(said);
-        // Finish the report before anything that can fail, since an unfinished report would be kept forever.
+        // Finish the report before any operation that may fail: an unfinished report is never removed.
         std::string report = kept.finish(id, std::move(said));
         if (!waits) return;
         Response response = problem ? std::move(*problem) : jsonResponse(std::move(report));

@@ -1,5 +1,5 @@
 #pragma once
-// The HTTP port for users and programs: the page, uploads, reports, reference histograms.
+// The HTTP port for users and programs: the web page, uploads, reports and reference histograms.
 
 #include <functional>
 #include <map>
@@ -19,14 +19,15 @@
 namespace sgm::service {
 
 struct WorkSettings {
-  std::string upload_folder;  ///< empty: the system's folder for temporary files
+  std::string upload_folder;  ///< directory for uploads; if empty, the system's directory for temporary files
   uint64_t max_upload_bytes = uint64_t{64} << 20;
   bool masters_writable = false;
-  /// Limit of all uploads that are being received; a single upload is always accepted.
+  /// Limit of the total size of all uploads that are being received; at least max_upload_bytes, so that a single upload
+  /// always fits.
   uint64_t max_incoming_bytes = uint64_t{1} << 30;
 };
 
-/// Objects that the port uses; they must outlive the server.
+/// The objects that the port uses. They must outlive the server.
 struct WorkParts {
   const Access& access;
   Inspector& inspector;
@@ -50,8 +51,9 @@ class Work final : public http::Handler {
 
   WorkParts parts_;
   WorkSettings settings_;
-  std::shared_ptr<IncomingRoom> room_, text_room_;  ///< bytes being received: uploads on disk, and texts in memory
-  /// The embedded files by name, one copy for all clients.
+  std::shared_ptr<IncomingRoom> room_, text_room_;  ///< bytes that are being received: uploads on disk (room_) and
+                                                    ///< texts in memory (text_room_)
+  /// The embedded files by name. All clients share one copy of each.
   std::map<std::string_view, std::shared_ptr<const std::string>> files_;
 };
 

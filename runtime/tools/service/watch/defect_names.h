@@ -1,5 +1,5 @@
 #pragma once
-// Names of the defects of chunks in the service's output.
+// Names of the kinds of defects in the service's output.
 
 #include <sgm/sgm.h>
 
@@ -7,7 +7,7 @@
 
 namespace sgm::service {
 
-/// Indexed by sgm_defect.
+/// Names of the defects, indexed by sgm_defect.
 inline constexpr std::array<const char*, SGM_DEFECT_SELF_INTERSECTION + 1> kDefectNames{
     "index",          "outside",   "misplaced",        "samples",     "degenerate",
     "flat",           "duplicate", "open_edge",        "turned_edge", "nonmanifold_edge",

@@ -22,7 +22,7 @@ using prometheus::MetricFamily;
 using prometheus::MetricType;
 using Labels = std::vector<ClientMetric::Label>;
 
-/// Metric families in the order of their first use. Each use passes the family's name and help text again.
+/// Collects metric families in the order of their first use. Each use states the family's name and help text again.
 class Families {
  public:
   void gauge(const char* name, const char* help, Labels labels, double value) {
@@ -90,7 +90,8 @@ void addChunks(Families& all, const WorldSample& world, const Labels& backend) {
   all.counter(kBuilt, kBuiltHelp, with("result", "cached"), cached);
   all.counter(kBuilt, kBuiltHelp, with("result", "failed"), stats.chunks_failed);
   all.counter(kBuilt, kBuiltHelp, with("result", "in_vain"), stats.chunks_in_vain);
-  // All levels are written from the beginning, so that the first chunks of a level appear as an increase.
+  // Write all levels from the first scrape on, even if 0: Prometheus then sees the first chunks of a level as an
+  // increase.
   const int top = std::clamp(world.info.top_level, 0, SGM_MAX_LEVEL);
   for (int level = 0; level <= top; ++level) {
     all.histogram("sgm_chunk_build_seconds", "Time to make a chunk's body, from the grammar to its packed mesh.",
@@ -174,7 +175,8 @@ void addWorld(Families& all, const WorldSample& world) {
 
 void addServer(Families& all, const char* port, const http::ServerCounts& counts) {
   for (size_t status = 0; status < counts.answers.size(); ++status) {
-    // These statuses are written even if 0: for a series that begins with its first error, Prometheus computes no rate.
+    // Write these statuses even if their count is 0: if a series began with its first error, Prometheus would compute
+    // no rate.
     const bool always = status == 200 || status == 500 || status == 503;
     if (counts.answers[status] == 0 && !always) continue;
     all.counter("sgm_http_requests_total", "Answered requests.", {{"port", port}, {"code", std::to_string(status)}},

@@ -1,6 +1,6 @@
 #pragma once
-// Writes the metrics in Prometheus' text format 0.0.4: base units, labels with a closed set of values, at most about
-// 500 time series for each world.
+// Writes the metrics in Prometheus's text format 0.0.4. Values are in base units, labels have few possible values, and
+// each world has at most about 500 time series.
 
 #include <string>
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace sgm::service {
 
-/// Each metric family has HELP and TYPE. Names of worlds must be unique. Non-finite numbers are written as the format
-/// requires. Thread-safe. Throws std::bad_alloc.
+/// The metrics as text. Each family has a HELP and a TYPE line. Contract: the worlds' names are unique. Non-finite
+/// numbers are written as the format requires. Thread-safe. Throws std::bad_alloc.
 std::string metricsText(const ServiceState& state, const std::vector<WorldSample>& worlds);
 
 }  // namespace sgm::service

@@ -1,5 +1,5 @@
 #pragma once
-// The state of the service, from which its metrics and its summary are written.
+// The state of the service, from which the metrics and the summary are written.
 
 #include <chrono>
 
@@ -13,8 +13,8 @@ struct ServiceState {
   uint16_t operations_port = 0;
   http::ServerCounts work, operations;
   InspectorCounts inspector;
-  bool inspects = false;     ///< whether uploads can be inspected
-  unsigned max_waiting = 0;  ///< maximum number of waiting uploads
+  bool inspects = false;     ///< whether the service can inspect uploads
+  unsigned max_waiting = 0;  ///< maximum number of uploads in the inspector's queue
   uint64_t max_upload_bytes = 0;
   size_t reports = 0;
 };

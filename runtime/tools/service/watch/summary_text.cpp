@@ -110,7 +110,7 @@ json worldJson(const WorldSample& world) {
           {"measures", measuresJson(world.measures)}};
 }
 
-/// Writes JSON as text. Device names come from drivers and may be invalid UTF-8, which is replaced.
+/// Converts JSON to text. Replaces invalid UTF-8, which may occur in device names from drivers.
 std::string jsonText(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 }  // namespace

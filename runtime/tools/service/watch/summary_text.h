@@ -1,5 +1,5 @@
 #pragma once
-// Writes the page's data as JSON. Non-finite numbers become null. The functions are thread-safe, and throw
+// Writes data for the web page as JSON. Non-finite numbers become null. The functions are thread-safe and may throw
 // std::bad_alloc.
 
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Computes quantiles of a histogram of times.
+// Quantiles of histograms of durations.
 
 #include <sgm/sgm.h>
 
@@ -7,12 +7,12 @@
 
 namespace sgm::service {
 
-/// The upper bound of bucket i in seconds; infinity for the last bucket.
+/// The upper bound of a bucket in seconds; infinity for the last bucket.
 double upperBound(int bucket);
-/// The number of times in the histogram.
+/// The number of durations in the histogram.
 uint64_t countOf(const sgm_time_histogram& times);
-/// The quantile of the times in seconds for a share from 0 to 1: interpolated within its bucket, and at most the
-/// longest time. 0 if the histogram is empty.
+/// The duration in seconds below which `share` (0..1) of all durations lie: interpolated within a bucket, and at most
+/// the longest duration. 0 if the histogram is empty.
 double quantile(const sgm_time_histogram& times, double share);
 
 }  // namespace sgm::service

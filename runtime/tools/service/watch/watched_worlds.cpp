@@ -21,13 +21,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Duration over which rates are computed.
+/// Length of the interval over which rates are computed.
 constexpr std::chrono::seconds kWindow{5};
-/// Maximum age of a map of drawn chunks.
+/// Age up to which a cached map of drawn chunks is reused.
 constexpr std::chrono::seconds kMapAge{1};
 constexpr size_t kLongestWorldName = 64;
-/// Maximum number of attempts to query the drawn chunks: the engine may draw more chunks between the query of their
-/// number and the query of the chunks.
+/// Maximum number of attempts to query a list: it may grow between the query of its length and the query of its
+/// elements.
 constexpr int kTries = 8;
 
 bool isName(const std::string& name) {
@@ -43,7 +43,7 @@ Error errorOf(sgm_result result, const sgm_error& error) {
           std::string("the world cannot be sampled: ") + error.message};
 }
 
-/// Owns the meshes that sgm_world_get_drawn returns.
+/// Owns the references to meshes that sgm_world_get_drawn returns.
 class DrawnMeshes {
  public:
   DrawnMeshes() = default;
@@ -79,7 +79,7 @@ class DrawnMeshes {
   size_t held_ = 0;
 };
 
-/// Number of triangles in the body and the drawn seams.
+/// Number of triangles in the chunk's body and in those of its seams that are drawn.
 uint32_t trianglesOf(const sgm_drawn_chunk& chunk) {
   sgm_mesh_view view = SGM_MESH_VIEW_INIT;
   if (sgm_mesh_get_view(chunk.mesh, &view, nullptr) != SGM_OK) return 0;
@@ -89,7 +89,7 @@ uint32_t trianglesOf(const sgm_drawn_chunk& chunk) {
   return indices / 3;
 }
 
-/// Squared distance in metres from a chunk's centre to the nearest viewer.
+/// Squared distance, in square metres, from a chunk's centre to the nearest viewer.
 double distanceOf(const sgm_chunk_key& key, const WorldSample& world) {
   const double metre = 1.0 / SGM_UNITS_PER_METRE;
   const double edge = world.info.cell_units * metre * SGM_CHUNK_CELLS * static_cast<double>(1 << key.level);
@@ -106,7 +106,7 @@ double distanceOf(const sgm_chunk_key& key, const WorldSample& world) {
   return nearest;
 }
 
-/// Indices of at most kMaxMapped chunks: the finest first, among equals those nearest to a viewer.
+/// Indices of at most kMaxMapped chunks: the finest first, and at equal levels those nearest to a viewer first.
 std::vector<size_t> mostWanted(const DrawnMeshes& drawn, const WorldSample& world) {
   struct Place {
     int32_t level;
@@ -127,8 +127,8 @@ std::vector<size_t> mostWanted(const DrawnMeshes& drawn, const WorldSample& worl
   return numbers;
 }
 
-/// A watched world. All functions must be called with the mutex `looking` locked, which forget() also locks, so that it
-/// waits for them.
+/// A world that is sampled. Contract: the caller of any function holds the mutex `looking`. The owner's forget() locks
+/// it too, and thus waits until no thread uses the world.
 class WatchedWorld {
  public:
   WatchedWorld(std::string name, sgm_world* world) : name_(std::move(name)), world_(world) {}
@@ -144,21 +144,22 @@ class WatchedWorld {
     if (const Result<void> asked = ask(now); !asked) return asked.error();
     now.taken = Clock::now();
     max_failures_ = now.stats.chunks_in_vain = std::max(max_failures_, now.stats.chunks_in_vain);
-    // Keep one sample that is older than the window, so that rates always cover the whole window.
+    // Keep one sample older than kWindow, so that rates cover the whole interval.
     while (past_.size() > 1 && now.taken - past_[1].taken >= kWindow) past_.pop_front();
     past_.push_back({now.taken, now.stats.chunks_meshed, now.times.clock_seconds, now.times.job_seconds});
     const Past &first = past_.front(), &last = past_.back();
     const double seconds = std::chrono::duration<double>(last.taken - first.taken).count();
     if (seconds > 0) now.chunks_per_second = static_cast<double>(last.meshed - first.meshed) / seconds;
     const double worked = last.clock_seconds - first.clock_seconds;
-    // Until there is a second sample with work, the rate is computed from the work before the first one.
+    // If no work was done since the oldest kept sample, keep the previous value; if there is none, use all work since
+    // the start.
     if (worked > 0) {
       speedup_ = (last.job_seconds - first.job_seconds) / worked;
     } else if (!speedup_ && last.clock_seconds > 0) {
       speedup_ = last.job_seconds / last.clock_seconds;
     }
-    // A job that waits, and meanwhile runs another job, counts for both, so the mean is limited to the number of
-    // threads.
+    // Limit the mean to the number of threads: while a job waits, its thread may run another job, and then both jobs
+    // count.
     if (speedup_) now.parallel_speedup = std::min(*speedup_, static_cast<double>(now.info.threads));
     return now;
   }
@@ -261,8 +262,7 @@ class Watcher final : public WatchedWorlds {
       watched = std::move(found->second.watched);
       worlds_.erase(found);
     }
-    // A thread that has found the world before its removal may still be sampling it: lock its mutex to wait for that
-    // thread.
+    // Lock the world's mutex to wait for threads that found the world before its removal and still sample it.
     const std::lock_guard looking(watched->looking);
     watched->forget();
   }
@@ -310,10 +310,10 @@ class Watcher final : public WatchedWorlds {
       try {
         sampleAll();
       } catch (const std::bad_alloc&) {
-        // Without memory no sample is taken; the previous samples grow old, which the readiness check reports.
+        // Memory has run out: skip this sample. The readiness check reports when the samples are stale.
       }
       lock.lock();
-      next = std::max(next, Clock::now() - period_);  // do not make up for missed samples
+      next = std::max(next, Clock::now() - period_);  // if sampling was delayed, skip the missed samples
     }
   }
 
@@ -335,11 +335,11 @@ class Watcher final : public WatchedWorlds {
   }
 
   const std::chrono::milliseconds period_;
-  mutable std::mutex mutex_;  ///< protects the following members; never held while a world is sampled
+  mutable std::mutex mutex_;  ///< guards all members below it; not held while a world is sampled
   std::condition_variable changed_;
   std::map<std::string, Entry> worlds_;
   bool ends_ = false;
-  std::thread thread_;  ///< the last member, because the thread uses all members above
+  std::thread thread_;  ///< must be the last member: the thread uses all members above
 };
 
 }  // namespace

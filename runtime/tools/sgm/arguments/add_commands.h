@@ -1,6 +1,6 @@
 #pragma once
-// Functions that declare a command and its options to the command line parser. They return the function that runs the
-// command.
+// Functions that declare the commands of `sgm` and their options to the command line parser. Each returns the function
+// that runs its command.
 
 #include <concepts>
 #include <functional>
@@ -18,10 +18,10 @@ class App;
 
 namespace sgm::cli {
 
-/// The command line, without the program's name.
+/// The arguments of the command line, without the program's name.
 using Words = std::vector<std::string>;
 
-/// The function that runs a command; it may take the words that were given.
+/// The function that runs a command. It may take the command line's arguments as a parameter, or none.
 class Command {
  public:
   template <std::invocable Run>
@@ -37,9 +37,10 @@ class Command {
 
 using AddCommand = Command (*)(CLI::App& root);
 
-/// The commands of this build, in the order of --help. Defined in all_commands.cpp or in core_commands.cpp.
+/// Functions that add the commands of this build, in the order of --help. Defined in all_commands.cpp or
+/// core_commands.cpp.
 std::span<const AddCommand> commandsToAdd();
-/// Names of the commands that this build does not have.
+/// Names of the commands that exist in other builds, but not in this one.
 std::span<const std::string_view> commandsLeftOut();
 
 Command addCheck(CLI::App& root);
@@ -59,7 +60,7 @@ Command addServe(CLI::App& root);
 Command addBench(CLI::App& root);
 Command addPaper(CLI::App& root);
 Command addBackends(CLI::App& root);
-/// This command is not listed in --help, because only the metrics service calls it.
+/// Adds the command `inspect`, which --help does not list: only the metrics service calls it.
 Command addInspect(CLI::App& root);
 
 }  // namespace sgm::cli

@@ -1,4 +1,4 @@
-// The commands of a full build (SGM_TOOLS=all).
+// List of the commands of a full build (SGM_TOOLS=all).
 
 #include "tools/sgm/arguments/add_commands.h"
 

@@ -1,4 +1,4 @@
-// Declares the command that lists the devices of this machine.
+// Declares the command that lists this machine's devices for meshing.
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-// Declares the commands that benchmark this machine, and compare the runtime with its paper.
+// Declares the commands that benchmark this machine, and that compare the runtime with its paper.
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-// Declares the commands that classify meshes, and build the reference histograms for that.
+// Declares the commands that classify meshes, and that build the reference histograms for classification.
 
 #include <memory>
 

@@ -1,4 +1,5 @@
-// Parses the command line. Only this folder includes CLI11, since sources that include it take long to compile.
+// Parses the command line with CLI11. CLI11 is included in this folder only, since sources that include it take long to
+// compile.
 
 #include <fmt/core.h>
 
@@ -17,7 +18,8 @@
 namespace sgm::cli {
 namespace {
 
-/// The error message for a word that stands in place of a command but is none; otherwise the parser's own message.
+/// The message for a usage error. If a word stands in place of a command but is not one, the message suggests commands;
+/// otherwise it is CLI11's own.
 std::string errorTextOf(const CLI::App& root, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<const CLI::App*> commands = root.get_subcommands(nullptr);
   for (int i = 1; i < argc && !commands.empty() && argv[i][0] != '-'; ++i) {
@@ -30,7 +32,7 @@ std::string errorTextOf(const CLI::App& root, const CLI::ParseError& error, int 
     Suggestion suggestion(word);
     std::string all;
     for (const CLI::App* command : commands) {
-      if (command->get_group().empty()) continue;  // internal command, which is not suggested
+      if (command->get_group().empty()) continue;  // not listed in --help, so not suggested
       suggestion.offer(command->get_name());
       all += (all.empty() ? "" : ", ") + command->get_name();
     }
@@ -54,7 +56,7 @@ Exit runCommandLine(int argc, char** argv) {
   std::vector<Command> commands;
   for (const AddCommand add : commandsToAdd()) commands.push_back(add(app));
 
-  // Checked before CLI11 runs, which would answer `sgm bake --help` with the help of sgm itself.
+  // Checked before CLI11 parses the command line: it would answer `sgm bake --help` with the help of sgm itself.
   if (argc > 1 && std::ranges::count(commandsLeftOut(), std::string_view(argv[1])) > 0) {
     return reportError(Exit::usage,
                        fmt::format("this build of sgm leaves out '{}': configure it with SGM_TOOLS=all (cmake "

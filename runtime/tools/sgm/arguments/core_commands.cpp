@@ -1,4 +1,4 @@
-// The commands of a small build (SGM_TOOLS=core).
+// List of the commands of a small build (SGM_TOOLS=core).
 
 #include "tools/sgm/arguments/add_commands.h"
 

@@ -104,7 +104,7 @@ Command addFly(CLI::App& root) {
       "Example:\n  sgm fly samples/grammars/cave.sgm --cell 0.25 --speed 20 --frames 1200 --png 6 --out flight.png");
   return [options, animate] {
     options->animate = animate->count() > 0;
-    std::erase(options->animated, "");  // --animate without a name yields an empty text
+    std::erase(options->animated, "");  // an --animate without a name gives an empty name: remove it
     return fly(*options);
   };
 }

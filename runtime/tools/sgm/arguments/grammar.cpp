@@ -1,4 +1,4 @@
-// Declares the commands that take a grammar, or a region of its world.
+// Declares the commands that work on a grammar, or on a region of its world.
 
 #include "tools/cli/grammar/commands.h"
 #include "tools/cli/picture/commands.h"
@@ -105,7 +105,7 @@ constexpr const char* kSurveySize = "1600x1200";
 
 bool isSurvey(const RenderOptions& options) { return options.plan || options.section; }
 
-/// Adds the options for a survey's drawing instead of a picture.
+/// Adds the options with which `render` draws a survey (plan or section) instead of a picture.
 void addSurveyOptions(CLI::App& app, RenderOptions& options) {
   CLI::Option* plan = app.add_flag("--plan", options.plan,
                                    "Draw the plan of a survey instead: the void of a solid world, else the solids, "
@@ -124,7 +124,7 @@ void addSurveyOptions(CLI::App& app, RenderOptions& options) {
     for (CLI::Option* survey : {plan, section}) survey->excludes(app.get_option(other));
 }
 
-/// Adds the options that choose a use of a rule, or several worlds.
+/// Adds the options that choose a use of a rule to show, or several seeds.
 void addChoiceOptions(CLI::App& app, RenderOptions& options) {
   app.add_option("--frame", options.frame,
                  "Show a use of this rule over two thirds of the picture, from the best point of view: Drip, "

@@ -10,7 +10,7 @@
 namespace sgm::cli {
 namespace {
 
-/// Adds --from, --to and --radius, which cannot be combined with the options in `excluded`.
+/// Adds --from, --to and --radius. None of them can be combined with an option in `excluded`.
 void addVoidOptions(CLI::App& app, MeasureOptions& options, const std::vector<CLI::Option*>& excluded) {
   CLI::Option* from = app.add_option("--from", options.from, "Find a path through the void from this point, in metres")
                           ->type_name("X,Y,Z")
@@ -96,7 +96,7 @@ Command addMeasure(CLI::App& root) {
   addSharpOption(*app, *options);
   std::vector<CLI::Option*> of_surfaces = optionsBeside(*app, of_all);
   addDerivationOptions(*app, *options);
-  // --backend is rejected with voids, which are measured on the CPU
+  // voids are measured on the CPU, so their options exclude --backend
   of_surfaces.push_back(app->get_option("--backend"));
   addRegionOptions(*app, *options);
   addVoidOptions(*app, *options, of_surfaces);

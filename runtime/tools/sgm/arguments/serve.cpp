@@ -1,4 +1,5 @@
-// Declares the command that measures and classifies meshes for clients, and `inspect`, which that service runs.
+// Declares the command that starts the metrics service, and the command `inspect`, which that service runs for each
+// upload.
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -31,7 +32,8 @@ Command addInspect(CLI::App& root) {
   const auto options = std::make_shared<InspectOptions>();
   CLI::Option* kind = app->add_option("--kind", options->kind, "Kind of the file")
                           ->check(CLI::IsMember({"glb", "obj", "ply", "stl", "sgm"}));
-  // A client's values are checked later, in the process; if an option is repeated, the last value counts.
+  // These values come from a client and are checked later, in the sandboxed process. If an option is repeated, its last
+  // value counts.
   for (const auto& [name, text] : {std::pair<const char*, std::string*>{"--name", &options->name},
                                    {"--region", &options->region},
                                    {"--cell", &options->cell},

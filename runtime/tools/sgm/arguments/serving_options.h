@@ -1,5 +1,5 @@
 #pragma once
-// Options of the commands that can start the metrics service.
+// Command line options of the commands that can start the metrics service.
 
 #include "tools/cli/fly/commands.h"
 #include "tools/support/serving.h"
@@ -11,11 +11,12 @@ class Option;
 
 namespace sgm::cli {
 
-/// Adds --serve, --keep-serving, and the options of addServingOptions(). In a build without the service, --serve is a
-/// usage error.
+/// Adds --serve, --keep-serving, and the options of addServingOptions(). In a build without the service, using --serve
+/// is an error.
 void addFlightServing(CLI::App& app, FlyOptions& options);
 
-/// Adds the options from --listen to --waiting. needs: an option without which they are usage errors; null: none.
+/// Adds the options of the metrics service, from --listen to --waiting. needs: an option without which using them is an
+/// error; null if there is none.
 void addServingOptions(CLI::App& app, ServingOptions& options, CLI::Option* needs);
 
 }  // namespace sgm::cli

@@ -1,4 +1,4 @@
-// Replaces serving_options.cpp in a build without the metrics service (SGM_TOOLS=core).
+// Replaces serving_options.cpp in a build without the metrics service (SGM_TOOLS=core): using --serve is an error.
 
 #include <CLI/CLI.hpp>
 

@@ -1,4 +1,4 @@
-// Declares the commands that bake worlds, and maintain stores of baked worlds.
+// Declares the commands that bake worlds into stores, and that maintain these stores.
 
 #include <fmt/core.h>
 

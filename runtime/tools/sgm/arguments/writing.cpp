@@ -1,4 +1,4 @@
-// Declares the commands for authors of grammars: the language server, and the preview window.
+// Declares the commands for authors of grammars: a language server and a preview window.
 
 #include <memory>
 
