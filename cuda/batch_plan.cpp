@@ -7,8 +7,8 @@ namespace sgm::cuda {
 
 namespace {
 
-/// Appends a copy of a lattice's parameters, followed by the smallest and the largest of its samples, from which a
-/// kernel bounds the op.
+/// Appends a copy of a lattice op's parameters, followed by its smallest and its largest sample, from which a kernel
+/// computes bounds of the op's value.
 uint32_t appendLattice(const uint32_t* p, uint32_t first_param, std::pmr::vector<uint32_t>& params) {
   const size_t points = size_t{p[5]} * p[6] * p[7], at = params.size();
   params.insert(params.end(), p, p + 10 + points);
@@ -46,7 +46,7 @@ class Planner {
     plan.marks = plan.bounds = 0;
   }
 
-  /// Adds the job. Returns false, having changed nothing, if scratch is too small for it.
+  /// Adds the job to the plan. Returns false and changes nothing if the job would exceed the limit on scratch memory.
   bool add(const ChunkJob& job, uint32_t number) {
     const uint32_t seams = job.seams == 0 ? 0 : static_cast<uint32_t>(std::popcount(unsigned{job.seams} & 63u));
     if (isUniform(job, seams)) {
@@ -55,7 +55,7 @@ class Planner {
     }
     const uint64_t marks = plan_.marks + entriesOf(job, seams, [](const FieldProgram& p) { return p.instrs.size(); });
     const uint64_t bounds = plan_.bounds + entriesOf(job, seams, [](const FieldProgram& p) { return p.groups.size(); });
-    // Lattices may be of any size, and are stored twice (appendLattice).
+    // The factor 2: appendLattice stores the parameters of lattices, which may be large, a second time.
     const uint64_t params =
         plan_.params.size() + 2 * job.field->params.size() + (seams > 0 ? 2 * job.coarse->params.size() : 0);
     const uint64_t needed = params * sizeof(uint32_t) +
@@ -68,7 +68,8 @@ class Planner {
  private:
   static bool isUniform(const ChunkJob& job, uint32_t seams) {
     if (!job.field->groups.empty()) return false;
-    // If the domains of the two levels have different signs, the surface passes between them in the seam.
+    // Both fields are constant. If their signs differ, the surface passes through the seam between the two levels of
+    // detail.
     return seams == 0 || (job.coarse->groups.empty() && (job.coarse->initial < 0) == (job.field->initial < 0));
   }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The plan of one submission: the arrays that its kernels read.
+// The plan of one batch (one GPU submission): the arrays that its kernels read.
 
 #include <array>
 #include <memory_resource>
@@ -11,19 +11,19 @@
 
 namespace sgm::cuda {
 
-/// The maximum number of chunks in one submission.
+/// The maximum number of chunks in one batch.
 inline constexpr uint32_t kMaxChunks = 256;
 
-/// The maximum size of a batch's results per chunk, and limits for the scratch and the parameters of a batch, which
-/// only a batch of one chunk may exceed.
+/// Memory limits. vertices, indices: average output per chunk for which a batch has memory. scratch_bytes: limit on a
+/// batch's scratch memory and parameters, which only a batch of a single chunk may exceed.
 struct Room {
   uint32_t vertices = 6144;
   uint32_t indices = 36864;
   uint64_t scratch_bytes = uint64_t{512} << 20;
-  uint64_t pool_bytes = uint64_t{128} << 20;  ///< the part of scratch_bytes for pruned programs
+  uint64_t pool_bytes = uint64_t{128} << 20;  ///< the share of scratch_bytes that holds pruned programs
 };
 
-/// Reused for further batches: it stops allocating memory when it is large enough.
+/// The arrays of one batch. A plan is reused for further batches, so that its arrays soon need no allocation.
 struct Plan {
   explicit Plan(std::pmr::memory_resource* memory)
       : instrs(memory),
@@ -36,11 +36,11 @@ struct Plan {
         chunks_of(memory),
         uniform(memory) {}
 
-  /// The indices of a chunk's parts in the batch.
+  /// The numbers, within the batch, of one chunk's mesh parts: its body, and its seams to coarser neighbours.
   struct Parts {
     uint32_t job = 0;
     uint32_t body = kNone;
-    std::array<uint32_t, 6> seams{};  ///< index of each seam's part, by Face; kNone: the seam is not requested
+    std::array<uint32_t, 6> seams{};  ///< for each Face: number of the seam's part; kNone if the seam is not requested
   };
 
   std::pmr::vector<Instr> instrs;
@@ -50,22 +50,24 @@ struct Plan {
   std::pmr::vector<Chunk> chunks;
   std::pmr::vector<Seam> seams;
   std::pmr::vector<PruneJob> jobs;
-  std::pmr::vector<Parts> chunks_of;   ///< one for each of `chunks`
-  std::pmr::vector<uint32_t> uniform;  ///< indices of jobs whose programs have no group, so that nothing is to be done
+  std::pmr::vector<Parts> chunks_of;   ///< parallel to `chunks`
+  std::pmr::vector<uint32_t> uniform;  ///< indices of jobs whose field has the same sign everywhere: they have no
+                                       ///< surface, so the GPU skips them
   uint32_t part_count = 0;
-  bool meshes = false, sums = false;  ///< true if a job requests its mesh; true if a job requests only sums
-  /// total number of entries, one for each pair of an instruction (or group) and a box
+  bool meshes = false, sums = false;  ///< whether any job requests its mesh; whether any job requests only sums
+  /// total sizes of the scratch arrays `marks` (an entry for each pair of instruction and box) and `bounds` (group and
+  /// box)
   uint64_t marks = 0, bounds = 0;
 };
 
-/// Returns the memory for pruned programs in all boxes, in instructions and groups: enough for all of them, up to the
-/// limit.
+/// The size of the pools for pruned programs: enough to store every program unpruned for each of its boxes, but at most
+/// room.pool_bytes.
 struct PoolSize {
   uint64_t instrs, groups;
 };
 PoolSize poolOf(uint64_t marks, uint64_t bounds, const Room& room);
 
-/// Plans jobs for one submission. Returns how many of the jobs were planned, from the first on; at least one. Throws
+/// Plans a batch from the first jobs of the list. Returns how many jobs were planned, at least one. Throws
 /// std::bad_alloc.
 size_t planBatch(std::span<const ChunkJob> jobs, const Room& room, Plan& plan);
 

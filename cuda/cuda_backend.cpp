@@ -19,8 +19,8 @@ struct Slot final : DeviceSlot {
   explicit Slot(std::pmr::memory_resource* resource) : plan(resource) {}
   Plan plan;
   BatchMemory memory;
-  Stream* awaited = nullptr;          ///< which of the two streams in `memory` has the work that must be awaited
-  std::unique_ptr<Placement> placed;  ///< the memory on the drawing device to which the slot's work writes
+  Stream* awaited = nullptr;          ///< the stream to wait for: memory.stream, or memory.reading for later copies
+  std::unique_ptr<Placement> placed;  ///< the memory on the rendering device to which this slot's copies write
 };
 
 uint32_t partOf(const Plan::Parts& parts, size_t number) { return number == 0 ? parts.body : parts.seams[number - 1]; }
@@ -72,7 +72,8 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
 
   Result<void> submit(DeviceSlot& base) override {
     auto& slot = static_cast<Slot&>(base);
-    // If anything fails or throws, earlier work in the stream may still be running, so the slot is not reused then.
+    // Until submit() succeeds or the stream is idle, the slot counts as stuck: after a failure or exception, work in
+    // the stream may still be running, so the slot must not be reused.
     slot.stuck = true;
     Result<void> submitted = mesher_->submit(slot.plan, slot.memory);
     if (submitted) slot.submitted = true;
@@ -84,7 +85,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
   Result<void> await(DeviceSlot& base) override {
     auto& slot = static_cast<Slot&>(base);
     if (Result<void> waited = slot.awaited->wait(); !waited) return waited;
-    // If this fails, the meshes are not on the drawing device, but this device is not lost.
+    // If publishing fails, the meshes are missing on the rendering device, but the CUDA device is not lost: only warn.
     if (const std::unique_ptr<Placement> placed = std::move(slot.placed)) {
       if (const Result<void> published = placed_->store().publish(*placed); !published) tell(published.error());
     }
@@ -182,13 +183,13 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
         job, [signs](uint32_t row) { return signs[row]; }, made, mesh);
   }
 
-  /// Reports once that meshes cannot be copied to the drawing device.
+  /// Warns, once only, that meshes cannot be moved to the rendering device.
   void tell(const Error& why) noexcept {
     if (!warn_ || told_.exchange(true)) return;
     try {
       warn_("the meshes of CUDA cannot be moved to the drawing device: " + why.message);
     } catch (const std::bad_alloc&) {
-      // There is no memory for a message; the missing device parts still show the failure.
+      // There is no memory for the message, so do not warn. The missing device parts still show the failure.
     }
   }
 
@@ -198,7 +199,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
   std::pmr::memory_resource* const memory_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<Mesher> mesher_;
-  // Places for meshes that stay; at most one of the two is set.
+  // The stores for meshes that stay on a device; at most one of the two is set.
   std::unique_ptr<PlacedMeshes> placed_;
   std::unique_ptr<KeptMeshes> kept_;
   IdleSlots slots_;

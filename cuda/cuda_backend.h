@@ -1,6 +1,6 @@
 #pragma once
-// Meshes chunks on an NVIDIA GPU in batches. The CPU meshes the chunks for which the GPU has no memory, and those of a
-// GPU that is lost (backend/device_batch.h).
+// The backend that meshes batches of chunks on an NVIDIA GPU. The CPU meshes the chunks for which the GPU has too
+// little memory, and all chunks after the GPU was lost (backend/device_batch.h).
 
 #include <functional>
 #include <memory>
@@ -14,19 +14,20 @@
 namespace sgm {
 
 struct CudaBackendOptions {
-  /// Opens the device; also called after a loss, where an error means that the CPU does all further work. Called by one
-  /// thread at a time.
+  /// Opens the device. Called again after the device was lost; an error then means that the CPU does all further work.
+  /// Called by one thread at a time.
   std::function<Result<std::unique_ptr<cuda::Device>>()> open;
-  /// same as BackendRequest::warn; also receives the loss of `store`
+  /// same as BackendRequest::warn; also called if meshes cannot be moved to `store`
   std::function<void(const std::string&)> warn = nullptr;
   cuda::Room room;
-  /// where meshes stay; null: in an external context's own memory, or nowhere
+  /// where meshes stay after meshing; null: in the memory of the engine's CUDA context, if there is one, otherwise only
+  /// on the host
   std::shared_ptr<MeshStore> store = nullptr;
-  uint64_t resident_cap = UINT64_MAX;  ///< for an external context: limit in bytes for meshes that stay on the device
+  uint64_t resident_cap = UINT64_MAX;  ///< in the engine's CUDA context: limit in bytes for meshes that stay on the
+                                       ///< device
 };
 
-/// Creates the backend. Errors: those of options.open and cuda::Mesher::create, if the device cannot be opened at
-/// first.
+/// Creates the backend. Errors if the device cannot be opened: those of options.open and cuda::Mesher::create.
 Result<std::unique_ptr<Backend>> makeCudaBackend(const CudaBackendOptions& options, std::unique_ptr<Backend> cpu,
                                                  std::pmr::memory_resource* memory, const Profiler& profiler);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The interface of devices that run kernels: a GPU (driver_device.h), or loops on the CPU for tests (host_device.h).
+// The interface to a device that runs kernels: a GPU (driver_device.h), or loops on the CPU for tests (host_device.h).
 
 #include <bit>
 #include <cstddef>
@@ -32,78 +32,79 @@ enum class Kernel : uint8_t {
 struct DeviceInfo {
   std::string name;
   int capability_major = 0, capability_minor = 0;
-  int driver = 0;           ///< CUDA version that the driver supports: 1000 * major + 10 * minor; 0: no driver
-  uint64_t memory = 0;      ///< device memory in bytes
+  int driver = 0;           ///< newest CUDA version that the driver supports, as 1000 * major + 10 * minor; 0: no
+                            ///< driver
+  uint64_t memory = 0;      ///< size of the device's memory in bytes
   int clock = 0;            ///< maximum clock of the multiprocessors in kHz
-  uint32_t processors = 1;  ///< number of multiprocessors
+  uint32_t processors = 1;  ///< number of streaming multiprocessors
   int memory_pools = 0;     ///< 1: the device supports stream-ordered allocation
   DeviceId id{};
-  std::string problem;  ///< the problem, if the driver cannot describe the device; otherwise empty
+  std::string problem;  ///< the reason why the driver could not describe the device; empty if it could
 };
 
 inline constexpr size_t kAlignment = 256;  ///< alignment of allocated device memory in bytes
 
 enum class MemoryKind : uint8_t {
   device,
-  pinned  ///< host memory for asynchronous copies
+  pinned  ///< page-locked host memory, needed for asynchronous copies
 };
 
-/// A queue of work that runs in order and asynchronously. Not thread-safe. The destructor waits for the work, except
-/// for frees of memory. Errors of all functions: out_of_memory, device_lost, unsupported.
+/// A queue of asynchronous work that runs in order. Not thread-safe. The destructor waits for the work, except for the
+/// freeing of memory. Errors of all functions: out_of_memory, device_lost, unsupported.
 class Stream {
  public:
   virtual ~Stream() = default;
-  /// Returns memory aligned to kAlignment. Device memory may be freed while earlier work in the stream uses it; free()
-  /// of pinned memory waits for that work.
+  /// Returns memory aligned to kAlignment. free() of device memory is ordered after the earlier work in the stream;
+  /// free() of pinned memory blocks until that work has ended.
   virtual Result<void*> allocate(MemoryKind kind, size_t bytes) = 0;
   virtual void free(MemoryKind kind, void* memory) noexcept = 0;
-  /// Copy between pinned and device memory. Neither may change until the copy has ended.
+  /// Copies asynchronously from pinned to device memory. Neither range may change until the copy has ended.
   virtual Result<void> copyIn(void* device, const void* pinned, size_t bytes) = 0;
   virtual Result<void> copyOut(void* pinned, const void* device, size_t bytes) = 0;
-  /// Copies within the device's memory.
+  /// Copies asynchronously within the device's memory.
   virtual Result<void> copy(void* to, const void* from, size_t bytes) = 0;
   virtual Result<void> clear(void* device, size_t bytes) = 0;
-  /// Runs a kernel. blocks: number of thread blocks, at least one.
+  /// Enqueues a kernel. blocks: number of thread blocks, at least one.
   virtual Result<void> launch(Kernel kernel, uint32_t blocks, const Batch& batch) = 0;
-  /// Marks the end of the work so far; ended() and wait() refer to this mark, until more work is added. So they do not
-  /// wait for the engine's own work that follows in an engine's stream.
+  /// Marks the end of the work so far. ended() and wait() refer to this mark until more work is added; in an engine's
+  /// stream, they thus do not wait for the engine's own later work.
   virtual Result<void> mark() = 0;
-  /// Returns true if the marked work has ended; does not wait.
+  /// Returns true if the marked work has ended. Does not block.
   virtual Result<bool> ended() = 0;
   virtual Result<void> wait() = 0;
 };
 
 enum class StreamUse : uint8_t {
-  own,      ///< the stream contains only the library's work
-  batches,  ///< the engine's stream, if it supplied one; otherwise as `own`
+  own,      ///< a stream that contains only the library's work
+  batches,  ///< the engine's stream, if the engine supplied one; otherwise same as `own`
 };
 
-/// Memory of another API that the device's kernels and copies can access. The destructor does not wait for them, and
-/// must run after their end.
+/// Memory of another API, mapped so that this device's kernels and copies can access it. Destroy it only after these
+/// have ended: the destructor does not wait for them.
 class ImportedMemory {
  public:
   virtual ~ImportedMemory() = default;
   virtual std::byte* data() const = 0;
 };
 
-/// Thread-safe. Must outlive its streams; imported memory may outlive it.
+/// A CUDA device, or its simulation on the CPU. Thread-safe. Must outlive its streams; imported memory may outlive it.
 class Device {
  public:
   virtual ~Device() = default;
   virtual const DeviceInfo& info() const = 0;
   virtual Result<std::unique_ptr<Stream>> makeStream(StreamUse use = StreamUse::own) = 0;
-  /// Makes the memory of a block accessible. Errors: unsupported, out_of_memory, device_lost, and those of
-  /// SharedBlock::descriptor().
+  /// Makes a memory block of another API accessible to this device. Errors: unsupported, out_of_memory, device_lost,
+  /// and those of SharedBlock::descriptor().
   virtual Result<std::shared_ptr<const ImportedMemory>> import(const SharedBlock&) {
     return Error{Code::unsupported, info().name + " cannot import memory of other APIs"};
   }
-  /// True if the context is the engine's, which reads the device's memory.
+  /// True if the CUDA context belongs to the engine, which then reads meshes in the device's memory.
   virtual bool borrowed() const { return false; }
-  /// True if a permanent failure occurred: nothing in the device's memory can be read any more.
+  /// True after a permanent failure: the content of the device's memory can no longer be read.
   virtual bool lost() const { return false; }
 };
 
-/// Memory that was allocated in a stream, which must outlive it.
+/// Owns memory that was allocated in a stream. The stream must outlive it.
 class Memory {
  public:
   Memory() = default;
@@ -115,8 +116,8 @@ class Memory {
   Result<void> grow(Stream& stream, MemoryKind kind, size_t bytes) {
     if (bytes <= bytes_) return {};
     reset();
-    // A margin is added, because successive batches are similar. Allocating pinned memory blocks the whole device, so
-    // it grows to a power of two.
+    // Allocate a margin, because the next batch may be slightly larger. Allocating pinned memory blocks the whole
+    // device, so its size is rounded up to a power of two, which makes growth rare.
     bytes = kind == MemoryKind::pinned ? std::bit_ceil(bytes) : bytes + bytes / 4;
     Result<void*> made = stream.allocate(kind, bytes);
     if (!made) return made.error();

@@ -1,4 +1,5 @@
-// Runs the kernels on the GPU: each thread of a block is a hardware thread, and a barrier ends each phase.
+// Runs the kernels on the GPU: each thread of a kernels/block.h block is a CUDA thread, and __syncthreads() ends each
+// phase.
 
 #include <cub/block/block_scan.cuh>
 
@@ -19,7 +20,7 @@ class DeviceBlock {
     __syncthreads();
   }
 
-  /// Replaces each value by the sum of all values before it; returns the sum of all values.
+  /// Exclusive prefix sum: replaces each value by the sum of all values before it; returns the sum of all values.
   __device__ uint32_t scan(uint32_t* values, uint32_t count) const {
     using Scan = cub::BlockScan<uint32_t, kThreads>;
     __shared__ typename Scan::TempStorage storage;

@@ -1,7 +1,7 @@
 #pragma once
-// The part of the CUDA driver's interface that the library uses. It is loaded at run time: the library works without a
-// driver, and can be built without the toolkit. Types and numbers are those of cuda.h (tests/unit/cuda/toolkit_test.cpp
-// compares them).
+// Declarations of the part of the CUDA driver API that the library uses. The driver is loaded at run time: the library
+// works without a driver, and can be built without the toolkit. Types and constants are those of cuda.h
+// (tests/unit/cuda/toolkit_test.cpp compares them).
 
 #include <cstddef>
 #include <cstdint>
@@ -28,18 +28,19 @@ using CuImported = CuImportedTag*;  ///< CUexternalMemory
 
 /// CUmemPoolProps.
 struct CuPoolProperties {
-  int allocation_type = 1;  ///< pinned memory, the only type
+  int allocation_type = 1;  ///< CU_MEM_ALLOCATION_TYPE_PINNED, the only type of pools
   int handle_types = 0;
-  int location_type = 1;  ///< the location is a device
-  int location = 0;       ///< number of that device
+  int location_type = 1;  ///< CU_MEM_LOCATION_TYPE_DEVICE: the memory is on a device
+  int location = 0;       ///< number of the device on which the memory is
   void* security = nullptr;
-  size_t max_bytes = 0;  ///< 0: the system chooses
+  size_t max_bytes = 0;  ///< maximum size of the pool in bytes; 0: the system chooses
   unsigned char reserved[56] = {};
 };
 
-/// CUDA_EXTERNAL_MEMORY_HANDLE_DESC.
+/// Same layout as CUDA_EXTERNAL_MEMORY_HANDLE_DESC.
 struct CuSharedMemory {
-  int type = 1;  ///< a file descriptor, which the driver owns after the import
+  int type = 1;  ///< CU_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD: a file descriptor, which the driver owns after the
+                 ///< import
   union {
     int descriptor;
     void* names[2];
@@ -50,7 +51,7 @@ struct CuSharedMemory {
 };
 inline constexpr unsigned kCuDedicatedMemory = 1;
 
-/// CUDA_EXTERNAL_MEMORY_BUFFER_DESC.
+/// Same layout as CUDA_EXTERNAL_MEMORY_BUFFER_DESC.
 struct CuSharedRange {
   unsigned long long offset = 0, bytes = 0;
   unsigned flags = 0;
@@ -66,15 +67,15 @@ inline constexpr CuResult kCuSuccess = 0, kCuOutOfMemory = 2, kCuNoDevice = 100,
                           kCuNotReady = 600, kCuDriverMismatch = 803;
 inline constexpr int kCuClock = 13, kCuProcessors = 16, kCuCapabilityMajor = 75, kCuCapabilityMinor = 76,
                      kCuMemoryPools = 115;
-/// attribute of a pool: free bytes that it keeps instead of returning them to the system
+/// attribute of a memory pool: number of free bytes that it keeps rather than returning them to the system
 inline constexpr int kCuPoolThreshold = 4;
 inline constexpr unsigned kCuNonBlockingStream = 1;
-/// flag of a context: waiting threads sleep, since an engine needs the processors
+/// context flag: waiting threads sleep rather than spin, since the engine needs the processors
 inline constexpr unsigned kCuBlockingWaits = 4;
-inline constexpr unsigned kCuEventBlocks = 1;  ///< flag of an event: threads that wait for it sleep
+inline constexpr unsigned kCuEventBlocks = 1;  ///< event flag: threads that wait for the event sleep rather than spin
 inline constexpr unsigned kCuEventUntimed = 2;
 
-/// SGM_CU(entry of the table, name in the driver, parameters)
+/// The functions that are loaded from the driver: SGM_CU(member of DriverTable, symbol name in the driver, parameters)
 #define SGM_CU_FUNCTIONS                                                                                           \
   SGM_CU(init, "cuInit", (unsigned flags))                                                                         \
   SGM_CU(driverGetVersion, "cuDriverGetVersion", (int* version))                                                   \

@@ -1,6 +1,6 @@
 #pragma once
-// A driver context, created by the library or the engine's, with the kernels loaded into it; converts its results to
-// errors.
+// A CUDA context, created by the library or by the engine, with the kernels loaded into it. Converts the driver's
+// results to errors.
 
 #include <array>
 #include <atomic>
@@ -11,10 +11,10 @@
 
 namespace sgm::cuda {
 
-/// Converts a result other than success to an error: out_of_memory, unsupported or device_lost.
+/// Converts a driver result other than success to an error: out_of_memory, unsupported or device_lost.
 Error errorOf(const DriverTable& driver, CuResult result, const std::string& what);
 
-/// Makes a context current for this thread during its lifetime.
+/// Makes a CUDA context current for this thread during the object's lifetime.
 class Current {
  public:
   Current(const DriverTable& driver, CuContext context)
@@ -25,7 +25,8 @@ class Current {
   }
   Current(const Current&) = delete;
   Current& operator=(const Current&) = delete;
-  /// False if the context could not be made current: a call would then run in another context.
+  /// False if the context could not be made current. The caller must then call no driver function, which would act on
+  /// another context.
   explicit operator bool() const { return pushed_; }
   static Error refused() { return {Code::device_lost, "the CUDA context can no longer be used"}; }
 
@@ -39,11 +40,11 @@ struct Opened {
   const DriverTable driver;
   DeviceInfo info;
   CuContext context = nullptr;
-  CuStream stream = nullptr;  ///< the engine's stream, used for all batches; null: each batch has its own
-  bool borrowed = false;      ///< true if the context is the engine's
+  CuStream stream = nullptr;  ///< the engine's stream, used for all batches; null: each batch gets a stream of its own
+  bool borrowed = false;      ///< true if the context belongs to the engine
   mutable std::atomic<bool> lost{false};
   CuModule module = nullptr;
-  /// The library's own memory pool. The device's default pool is not used, because it is shared with the engine, and is
+  /// The library's own memory pool. The device's default pool is not suitable, since the engine also uses it, and it is
   /// not freed when a context is lost.
   CuPool pool = nullptr;
   std::array<CuFunction, static_cast<size_t>(Kernel::count)> functions{};
@@ -52,7 +53,7 @@ struct Opened {
   Opened(const Opened&) = delete;
   Opened& operator=(const Opened&) = delete;
   ~Opened();
-  /// Converts a result to an error, and records a loss of the device.
+  /// Converts a driver result to an error; if the device is lost, sets `lost`.
   Result<void> check(CuResult result, const char* what) const;
 };
 

@@ -9,7 +9,8 @@ namespace sgm::cuda {
 
 namespace {
 
-constexpr uint64_t kPoolKeeps = uint64_t{256} << 20;  // free bytes that the pool keeps: the memory of some batches
+constexpr uint64_t kPoolKeeps = uint64_t{256} << 20;  // number of free bytes that the memory pool keeps, about the
+                                                      // memory of some batches
 
 class DriverDevice final : public Device {
  public:
@@ -48,7 +49,8 @@ Result<DeviceInfo> describe(const DriverTable& driver, CuDevice device, int vers
   if (result != kCuSuccess) return errorOf(driver, result, "querying the CUDA devices");
   info.name = name;
   info.memory = bytes;
-  // This id is compared with that of the drawing device. A device without an id cannot be another API's GPU.
+  // The id is compared with the rendering device's id. Without a UUID the id stays 0, which matches no device of
+  // another API.
   CuId id{};
   if (driver.deviceGetUuid(&id, device) == kCuSuccess) {
     std::copy(std::begin(id.bytes), std::end(id.bytes), info.id.begin());
@@ -60,13 +62,13 @@ Result<DeviceInfo> describe(const DriverTable& driver, CuDevice device, int vers
 Result<void> makeContext(Opened& opened, CuDevice device) {
   const CuResult result = opened.driver.ctxCreate(&opened.context, kCuBlockingWaits, device);
   if (Result<void> made = opened.check(result, "creating a context"); !made) return made;
-  // Creating a context makes it current; the engine's context is made current again.
+  // cuCtxCreate makes the new context current; restore the context that the caller's thread had before.
   CuContext popped = nullptr;
   opened.driver.ctxPopCurrent(&popped);
   return {};
 }
 
-/// Loads the kernels into the context, and prepares it for batches.
+/// Loads the kernels into the context and creates its memory pool.
 Result<void> loadKernels(Opened& opened, CuDevice device, std::span<const std::byte> image) {
   const DriverTable& driver = opened.driver;
   const Current current(driver, opened.context);
@@ -79,7 +81,8 @@ Result<void> loadKernels(Opened& opened, CuDevice device, std::span<const std::b
   properties.location = device;
   const CuResult pooled = driver.memPoolCreate(&opened.pool, &properties);
   if (Result<void> made = opened.check(pooled, "creating a memory pool"); !made) return made;
-  // Freed memory is kept for the next batch, and not returned to the system at every wait.
+  // Let the pool keep freed memory for the next batch; by default it returns the memory to the system at every
+  // synchronization.
   uint64_t kept_bytes = kPoolKeeps;
   const CuResult told = driver.memPoolSetAttribute(opened.pool, kCuPoolThreshold, &kept_bytes);
   if (Result<void> set = opened.check(told, "setting up a memory pool"); !set) return set;
@@ -100,8 +103,8 @@ Error noKernels() {
   return {Code::unsupported, "this build has no CUDA kernels: build it with nvcc installed and SGM_CUDA=ON"};
 }
 
-/// Converts an error before the device is open: the device cannot be lost yet; for example, another process may hold it
-/// exclusively.
+/// Converts an error that occurs while a device is opened. device_lost becomes unsupported: no open device was lost;
+/// for example, another process may use the device exclusively.
 Error unusable(const Error& error) {
   return {error.code == Code::device_lost ? Code::unsupported : error.code, error.message};
 }
@@ -131,7 +134,7 @@ Result<std::vector<DeviceInfo>> listDevices(const DriverTable& driver) {
     const CuResult got = driver.deviceGet(&device, i);
     if (got != kCuSuccess) return errorOf(driver, got, "querying the CUDA devices");
     Result<DeviceInfo> info = describe(driver, device, version);
-    // A faulty device must not hide the others, so its error is only noted.
+    // A faulty device must not hide the other devices, so its error is only stored in its DeviceInfo.
     if (info) {
       infos.push_back(std::move(*info));
     } else {

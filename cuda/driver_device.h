@@ -1,5 +1,5 @@
 #pragma once
-// Finds and opens the CUDA devices of this machine, through the driver.
+// Finds and opens the CUDA devices of this machine through the CUDA driver.
 
 #include <functional>
 #include <memory>
@@ -14,39 +14,39 @@ namespace sgm::cuda {
 /// True if this machine has an NVIDIA driver, whether usable or not.
 bool haveDriver();
 
-/// Loads and initialises the driver. Error: unsupported if it is missing or too old; the message says what to do.
+/// Loads and initialises the CUDA driver. Error: unsupported if it is missing or too old, with a remedy in the message.
 Result<DriverTable> openDriver();
 
-/// Returns the compiled GPU kernels in this build; empty if it was built without nvcc.
+/// Returns the compiled kernels (fatbin) that this build contains; empty if it was built without nvcc.
 std::span<const std::byte> kernelImage();
 
-/// Returns the reason why the device cannot mesh, as a sentence; empty if it can. Pure.
+/// Returns the reason why the library cannot use the device, as a sentence; empty if it can. Pure.
 std::string unsupportedReason(const DeviceInfo& info);
 
-/// Lists all devices of the driver, including unusable ones. Errors: device_lost, unsupported.
+/// Lists all devices that the driver reports, including unusable ones. Errors: device_lost, unsupported.
 Result<std::vector<DeviceInfo>> listDevices(const DriverTable& driver);
 
-/// Calls openDriver() and listDevices(driver).
+/// Loads the driver by openDriver() and lists its devices.
 Result<std::vector<DeviceInfo>> listDevices();
 
-/// A context and a stream of the engine, which must outlive the device.
+/// A CUDA context and a stream that belong to the engine and must outlive the device.
 struct BorrowedContext {
   CuContext context = nullptr;
-  CuStream stream = nullptr;         ///< used for all batches; null: each batch gets a stream of its own
+  CuStream stream = nullptr;         ///< the stream for all batches; null: each batch gets a stream of its own
   uint64_t mesh_bytes = UINT64_MAX;  ///< limit in bytes for meshes that stay on the device
 };
 
-/// Opens a device in the engine's context, which the engine still owns. Each call restores the thread's current
-/// context. Errors: same as openDevice().
+/// Opens a device in the engine's CUDA context, without taking ownership. Each call of the device restores the thread's
+/// current context. Errors: those of openDevice().
 Result<std::unique_ptr<Device>> borrowDevice(const DriverTable& driver, std::span<const std::byte> image,
                                              const BorrowedContext& external);
 
-/// Returns the index of the GPU in listDevices(). Error: unsupported if the driver does not have it; others as
-/// listDevices().
+/// Returns the index, in listDevices(), of the GPU with this id. Error: unsupported if the driver does not list it;
+/// also those of listDevices().
 Result<int> findDevice(const DriverTable& driver, const DeviceId& id);
 
-/// Opens a device with a context of its own, so that its failures affect no other context. index: in listDevices(); -1:
-/// the first usable device. image: the kernels as compiled by nvcc. Errors: unsupported, out_of_memory, device_lost.
+/// Opens a device in a new context, so that failures affect no other context. index: position in listDevices(); -1: the
+/// first usable device. image: the kernels as compiled by nvcc. Errors: unsupported, out_of_memory, device_lost.
 Result<std::unique_ptr<Device>> openDevice(const DriverTable& driver, std::span<const std::byte> image, int index = -1);
 
 }  // namespace sgm::cuda

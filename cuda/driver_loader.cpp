@@ -1,10 +1,10 @@
-// Loads the driver, and embeds the kernels' image.
+// Loads the CUDA driver, and embeds the compiled kernels into the library.
 
 #include "base/platform/library.h"
 #include "cuda/driver_device.h"
 
 #ifdef SGM_CUDA_IMAGE
-// Includes the file directly, without a source array, which would be several times its size.
+// Embed the file by .incbin: a C array as source would be several times its size and slow to compile.
 asm(".pushsection .rodata, \"a\", @progbits\n"
     ".balign 64\n"
     ".hidden sgm_cuda_image\n"
@@ -34,7 +34,7 @@ std::span<const std::byte> kernelImage() {
 
 namespace {
 
-/// The library is never closed: the driver's thread-local data must exist as long as the threads.
+/// The library is never unloaded: the driver keeps thread-local data until the threads end.
 void* openLibrary() { return platform::openLibrary("libcuda.so.1"); }
 
 }  // namespace

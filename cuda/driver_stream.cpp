@@ -65,8 +65,8 @@ class DriverStream final : public Stream {
   void free(MemoryKind kind, void* memory) noexcept override {
     const Current current(driver_, device_.context);
     if (!current) return;
-    // Copies may still be using the memory. If it cannot be found out when they end, the memory is freed only with the
-    // context.
+    // Copies may still use pinned memory, so wait for them. If waiting fails, the memory is not freed here, but only
+    // with the context.
     if (device_.lost.load() || (kind == MemoryKind::pinned && !waited())) return;
     if (kind == MemoryKind::pinned) {
       driver_.memFreeHost(memory);
@@ -102,7 +102,7 @@ class DriverStream final : public Stream {
     const Current current(driver_, device_.context);
     if (!current) return refused();
     marked_ = false;
-    // A local copy suffices, because the driver copies the parameters before launchKernel returns.
+    // `copy` may be a local variable: the driver reads the parameters before launchKernel returns.
     Batch copy = batch;
     void* parameters[] = {&copy};
     return device_.check(driver_.launchKernel(device_.functions[static_cast<size_t>(kernel)], blocks, 1, 1,
@@ -139,13 +139,14 @@ class DriverStream final : public Stream {
     device_.lost.store(true);
     return Current::refused();
   }
-  /// If waiting fails, the work may write at any time: then no memory of the device can be trusted any more.
+  /// Returns device_lost: if waiting fails, work may still be writing, so the content of the device's memory is
+  /// unreliable.
   Error unsure(const Error& why) const {
     device_.lost.store(true);
     return {Code::device_lost, why.message};
   }
 
-  /// Same as wait(), for callers that must not throw; an error's message could.
+  /// Same as wait(), but throws nothing: allocating an error's message could throw.
   bool waited() noexcept {
     try {
       return static_cast<bool>(wait());
@@ -159,7 +160,7 @@ class DriverStream final : public Stream {
   const DriverTable& driver_;
   CuStream stream_ = nullptr;
   CuEvent event_ = nullptr;
-  bool marked_ = true;  ///< true if the event follows all work so far, or if there is no work
+  bool marked_ = true;  ///< true if event_ was recorded after all work so far, or if there was no work
 };
 
 class DriverImport final : public ImportedMemory {
@@ -167,8 +168,7 @@ class DriverImport final : public ImportedMemory {
   explicit DriverImport(std::shared_ptr<const Opened> device) : device_(std::move(device)) {}
   ~DriverImport() override {
     const Current current(device_->driver, device_->context);
-    // If it cannot be found out when copies end, the imported memory is freed only with the context, as other memory
-    // is.
+    // On a lost device, copies may still use the imported memory, so it is freed only with the context.
     if (!current || device_->lost.load()) return;
     if (memory_ != 0) device_->driver.memFree(memory_);
     if (imported_ != nullptr) device_->driver.destroyExternalMemory(imported_);
@@ -201,7 +201,8 @@ class DriverImport final : public ImportedMemory {
   }
 
  private:
-  /// Converts the error of a failed import, which does not affect the context.
+  /// Converts the error of a failed import. device_lost becomes unsupported, because such a failure does not affect the
+  /// context.
   Error refused(CuResult result) const {
     Error error = errorOf(device_->driver, result, "importing the drawing device's memory on " + device_->info.name);
     if (error.code == Code::device_lost) error.code = Code::unsupported;

@@ -1,5 +1,5 @@
 #pragma once
-// Streams of an opened context, and memory of other APIs imported into it.
+// Streams of an open CUDA context, and the import of memory of other APIs into the context.
 
 #include <memory>
 
@@ -7,10 +7,10 @@
 
 namespace sgm::cuda {
 
-/// Same as Device::makeStream. The device must outlive the stream.
+/// Implements Device::makeStream. The device must outlive the stream.
 Result<std::unique_ptr<Stream>> makeDriverStream(const Opened& device, StreamUse use);
 
-/// Same as Device::import.
+/// Implements Device::import.
 Result<std::shared_ptr<const ImportedMemory>> importMemory(std::shared_ptr<const Opened> device,
                                                            const SharedBlock& block);
 

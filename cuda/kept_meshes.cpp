@@ -15,7 +15,8 @@ size_t bytesOf(const PartSource& source) {
   return aligned(source.vertex_count * sizeof(Vertex)) + aligned(source.index_count * sizeof(uint32_t));
 }
 
-/// Waits for copies after a failure: the copied parts will be freed by another stream, which does not wait for them.
+/// On failure, waits in the destructor for copies in the stream: the parts that they write will be freed in another
+/// stream, which is not ordered after them.
 class WaitUnlessKept {
  public:
   explicit WaitUnlessKept(Stream& stream) : stream_(stream) {}
@@ -24,7 +25,7 @@ class WaitUnlessKept {
     try {
       static_cast<void>(stream_.wait());
     } catch (const std::bad_alloc&) {
-      // creating an error's message has thrown; the wait has ended, or the device is lost
+      // wait() threw while it made an error's message: either the stream's work has ended, or the device is lost
     }
   }
   WaitUnlessKept(const WaitUnlessKept&) = delete;

@@ -11,11 +11,12 @@ namespace sgm::cuda {
 
 namespace {
 
-/// Number of blocks per multiprocessor for kernels whose amount of work is known only to the device: enough to use all
-/// of it.
+/// Number of blocks per multiprocessor for kernels whose amount of work only the device knows: enough to use the whole
+/// multiprocessor.
 constexpr uint32_t kBlocksAProcessor = 32;
 
-/// Places arrays one after the other in one memory block: a first pass computes their sizes, a second their addresses.
+/// Lays out arrays one after the other in one memory block. A first pass without a block computes the total size, a
+/// second pass the addresses.
 class Places {
  public:
   explicit Places(std::byte* begin) : begin_(begin) {}
@@ -39,7 +40,7 @@ size_t placeResult(const Plan& plan, std::byte* begin, Head*& head, Part*& parts
   return places.used();
 }
 
-/// Places the host's input; if `staging` is not null, copies it there.
+/// Lays out the input arrays; if `staging` is not null, also copies them there. Returns their total size in bytes.
 size_t placeInput(const Plan& plan, std::byte* staging, std::byte* device, Batch& batch) {
   Places to(staging), at(device);
   const auto put = [&](const auto& array, auto*& on_device) {
@@ -65,7 +66,7 @@ size_t placeInput(const Plan& plan, std::byte* staging, std::byte* device, Batch
 size_t placeScratch(const Plan& plan, std::byte* begin, Batch& batch) {
   const uint64_t chunks = plan.chunks.size(), seams = plan.seams.size(), items = chunks * kBricks + 2 * seams;
   Places places(begin);
-  // The arrays that must be zero come first, so that one call clears them.
+  // Arrays that must be zeroed come first, so that a single call clears them.
   places.put(batch.signs, chunks * kRows);
   places.put(batch.coarse_signs, seams * kCoarseSide);
   places.put(batch.marks, plan.marks);
@@ -82,7 +83,7 @@ size_t placeScratch(const Plan& plan, std::byte* begin, Batch& batch) {
   return places.used();
 }
 
-/// Returns the size of the part of scratch that must be cleared; it is at the beginning.
+/// Returns the number of bytes at the beginning of scratch that must be zeroed.
 size_t zeroBytes(const Plan& plan) {
   Batch batch{};
   Places places(nullptr);
@@ -137,7 +138,7 @@ Batch Mesher::sized(const Plan& plan) const {
   return batch;
 }
 
-/// Provides all memory of a batch, and places its input.
+/// Allocates all memory of a batch, and lays out its arrays.
 Result<void> Mesher::fit(const Plan& plan, BatchMemory& m, Batch& batch) const {
   m.input_bytes = placeInput(plan, nullptr, nullptr, batch);
   m.result_bytes = placeResult(plan, nullptr, batch.head, batch.parts, batch.sums);
@@ -266,11 +267,11 @@ Result<Mesher::Output> Mesher::read(const Plan& plan, BatchMemory& m) {
                 reinterpret_cast<const uint64_t*>(m.signs_back.data())};
 }
 
-/// Downloads the vertices and indices that were not downloaded with the batch.
+/// Downloads all vertices and indices if those downloaded with the batch were not enough.
 Result<void> Mesher::downloadRest(const Head& head, BatchMemory& m) {
   const uint64_t vertices = uint64_t{head.vertices} * sizeof(Vertex),
                  indices = uint64_t{head.indices} * sizeof(uint32_t);
-  // A quarter more than this batch had, because successive batches are similar.
+  // Expect a quarter more than in this batch, because successive batches are similar.
   usual_vertices_.store(vertices + vertices / 4);
   usual_indices_.store(indices + indices / 4);
   if (vertices <= m.brought_vertices && indices <= m.brought_indices) return {};

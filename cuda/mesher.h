@@ -1,5 +1,5 @@
 #pragma once
-// Runs a planned batch through all kernels in one stream, and downloads its parts.
+// Runs a planned batch through all kernels in one stream, and downloads the resulting mesh parts.
 
 #include <array>
 #include <atomic>
@@ -10,62 +10,64 @@
 
 namespace sgm::cuda {
 
-/// The stream and the memory of one batch; reused for further batches, and enlarged if necessary.
+/// The stream and the memory of one batch. It is reused for further batches, and grows if necessary.
 struct BatchMemory {
-  std::unique_ptr<Stream> stream;  ///< must outlive the memory below
+  std::unique_ptr<Stream> stream;  ///< must outlive the memory below, which is allocated in it
   Memory staging, input, scratch, result;
   Memory vertices, indices;
-  /// Memory for downloads. The numbers of vertices and indices are known only to the device, so as many as recent
-  /// batches had are downloaded with the batch itself; if the batch has more, the rest is downloaded later.
+  /// Host memory for downloads. The numbers of vertices and indices are known only on the device, so the batch
+  /// downloads as many as recent batches had; if it has more, they are downloaded after its end.
   Memory result_back, signs_back, vertices_back, indices_back;
-  /// bytes of vertices and of indices that are downloaded with the batch
+  /// numbers of bytes of vertices and of indices that the batch itself downloads
   uint64_t brought_vertices = 0, brought_indices = 0;
   uint64_t input_bytes = 0, result_bytes = 0;
-  /// The stream for copies after the end of the batch, so that they do not wait for later work of an engine in
-  /// `stream`. Destroyed before the memory.
+  /// A separate stream for copies after the end of the batch: if `stream` is the engine's, copies in it would wait for
+  /// the engine's later work. Destroyed before the memory.
   std::unique_ptr<Stream> reading;
 };
 
-/// Thread-safe. The device must outlive it.
+/// Runs batches. Thread-safe. The device must outlive it.
 ///
-/// A batch is ten or eleven launches and some copies, issued one by one, without a CUDA graph. Every batch has other
-/// sizes, places and numbers of blocks, so all nodes of a graph would have to be set each time, which costs the host as
-/// much as a launch. On the device a graph saves a microsecond or two between kernels, which is little compared with
-/// the kernels of up to 256 chunks. sgm_bench_kernels (tests/bench) measures both on a device.
+/// A batch is ten or eleven kernel launches and some copies, issued one by one, without a CUDA graph. Sizes, addresses
+/// and block counts differ for every batch, so all nodes of a graph would have to be updated each time, which costs the
+/// host as much as the launches. On the device a graph saves one or two microseconds between kernels, which is little
+/// compared with the run time of kernels for up to 256 chunks. sgm_bench_kernels (tests/bench) measures both variants.
 class Mesher {
  public:
-  /// Errors: those of Stream.
+  /// Creates a mesher and uploads the lookup tables. Errors: those of Stream.
   static Result<std::unique_ptr<Mesher>> create(Device& device, const Room& room);
 
-  /// Submits the batch to the memory's stream, which is created if there is none. Plan and memory must not change until
-  /// the batch has ended. Errors: those of Stream; then a part of the batch may run nevertheless.
+  /// Submits the batch to memory.stream, which is created if it is null. Plan and memory must not change until the
+  /// batch has ended. Errors: those of Stream; a part of the batch may run even then.
   Result<void> submit(const Plan& plan, BatchMemory& memory);
 
-  // The following functions are the steps of submit(), for repetition and measurement. Errors: those of Stream.
-  /// Uploads the plan's programs; they stay on the device for any number of runs.
+  // The following functions are the steps of submit(), so that benchmarks can repeat and measure each. Errors: those of
+  // Stream.
+
+  /// Uploads the plan's arrays; they stay on the device for any number of runs.
   Result<Batch> load(const Plan& plan, BatchMemory& memory);
-  /// Clears the memory that kernels expect to be zero. Call it before each run.
+  /// Zeroes the memory that kernels expect to be zero. Call it before each run.
   Result<void> clear(const Plan& plan, BatchMemory& memory) const;
   struct Launch {
     Kernel kernel;
-    uint32_t blocks;  ///< number of blocks; 0: nothing to do
+    uint32_t blocks;  ///< number of thread blocks; 0: the kernel is not launched
   };
   using Launches = std::array<Launch, static_cast<size_t>(Kernel::count)>;
-  /// Returns all kernels in the order in which they run.
+  /// Returns all kernels with their numbers of blocks, in the order of their launches.
   Launches launches(const Batch& batch) const;
   static Result<void> run(Stream& stream, const Launches& launches, const Batch& batch);
 
-  /// Returns the stream for copies after the end of the batch. Errors: those of Stream.
+  /// Returns memory.reading, the stream for copies after the end of the batch. Errors: those of Stream.
   Result<Stream*> reading(BatchMemory& memory);
-  /// Returns the results in host memory, valid until the next submission. Call after the end of the batch. Waits if
-  /// more must be downloaded.
+  /// The results of a batch in host memory, valid until the next submission with the same memory.
   struct Output {
     const Part* parts = nullptr;
-    const Sums* sums = nullptr;  ///< one per part, if a chunk requests sums
+    const Sums* sums = nullptr;  ///< one entry per part; null if no chunk requests sums
     const Vertex* vertices = nullptr;
     const uint32_t* indices = nullptr;
-    const uint64_t* signs = nullptr;  ///< kRows per chunk
+    const uint64_t* signs = nullptr;  ///< sign words, kRows per chunk
   };
+  /// Returns the results. Call after the end of the batch. Blocks if more must be downloaded.
   Result<Output> read(const Plan& plan, BatchMemory& memory);
 
  private:
@@ -78,9 +80,9 @@ class Mesher {
 
   Device& device_;
   const Room room_;
-  std::unique_ptr<Stream> stream_;  ///< used to upload the case tables
+  std::unique_ptr<Stream> stream_;  ///< the stream that uploads the lookup tables
   Memory tables_;
-  /// bytes of vertices and indices of the last batch, with a margin
+  /// numbers of bytes of vertices and of indices to download with the next batch: those of the last batch plus a margin
   std::atomic<uint64_t> usual_vertices_{0}, usual_indices_{0};
 };
 

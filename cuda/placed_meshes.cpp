@@ -5,17 +5,19 @@
 
 namespace sgm::cuda {
 
-/// The import of a block's memory into one device. If the device is lost, a newly opened one cannot use the import.
+/// The import of a memory block into one device. After a loss of the device, a newly opened device must import the
+/// block again.
 struct PlacedMeshes::Import {
-  std::mutex mutex;  ///< guards the following members
-  /// null after that object is destroyed, so that a later object at the same address does not match
+  std::mutex mutex;  ///< guards `of` and `memory`
+  /// the owner of the import; set to null when the owner is destroyed, so that a later object at the same address does
+  /// not match
   const PlacedMeshes* of;
   std::shared_ptr<const ImportedMemory> memory;
 };
 
 namespace {
 
-/// Waits for copies after a failure: only this code knows that they access the placed parts.
+/// On failure, waits in the destructor for copies in the stream: no other code knows that they write to the placement.
 class Writing {
  public:
   Writing(Stream& stream, Placement& placement) : stream_(stream), placement_(placement) { placement.writing = true; }
@@ -24,7 +26,7 @@ class Writing {
     try {
       if (stream_.wait()) placement_.writing = false;
     } catch (const std::bad_alloc&) {
-      // creating an error's message has thrown: the device is lost
+      // wait() threw while it made an error's message, which happens only if the device is lost
     }
   }
   Writing(const Writing&) = delete;
@@ -50,7 +52,7 @@ Result<std::unique_ptr<PlacedMeshes>> PlacedMeshes::create(Device& device, std::
     return Error{Code::unsupported, device.info().name + " is not the drawing GPU"};
   }
   std::unique_ptr<PlacedMeshes> meshes(new PlacedMeshes(device, std::move(store)));
-  // Tries an import now: otherwise a failure would be found only after the first mesh was made.
+  // Try to import a block now, so that a failure is found before the first mesh is made.
   PartSizes least{};
   least[0] = {1, 1};
   const std::unique_ptr<Placement> trial = meshes->store_->place({&least, 1});
@@ -76,7 +78,8 @@ PlacedMeshes::~PlacedMeshes() {
 }
 
 Result<std::shared_ptr<const ImportedMemory>> PlacedMeshes::import(SharedBlock& block) {
-  // After a loss, two sessions may be importing: the new one, and the old one with its last batches.
+  // Lock, because after a device loss two objects may import the same block: that of the newly opened device, and that
+  // of the lost device with its last batches.
   const std::scoped_lock lock(block.importing);
   if (const auto known = std::static_pointer_cast<Import>(block.imported)) {
     const std::scoped_lock of_import(known->mutex);
@@ -104,7 +107,7 @@ Result<std::unique_ptr<Placement>> PlacedMeshes::keep(Stream& stream, std::span<
   for (const PartPlace& part : placement->parts) {
     const Result<std::shared_ptr<const ImportedMemory>> imported = import(*part.block);
     if (!imported) {
-      // A failed import is treated like a lack of memory.
+      // Treat a failed import as a lack of memory: the chunk's mesh does not stay on the device.
       placement->chunks[part.chunk] = {};
       continue;
     }

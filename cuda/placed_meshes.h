@@ -1,5 +1,5 @@
 #pragma once
-// Meshes that stay in memory of another API, on the device that draws: they are copied there from a batch's memory.
+// Meshes that are copied from a batch's memory to memory of another API, and stay there, on the rendering device.
 
 #include <memory>
 #include <mutex>
@@ -12,18 +12,19 @@
 
 namespace sgm::cuda {
 
-/// Thread-safe. The device must outlive it.
+/// Copies meshes into a store of the rendering device. Thread-safe. The CUDA device must outlive this object.
 class PlacedMeshes {
  public:
-  /// Errors: unsupported (the store is on another GPU, or the device cannot import its memory); out_of_memory;
+  /// Errors: unsupported if the store is on another GPU or the device cannot import its memory; out_of_memory;
   /// device_lost.
   static Result<std::unique_ptr<PlacedMeshes>> create(Device& device, std::shared_ptr<MeshStore> store);
 
-  /// Copies parts asynchronously in the stream. Publish the result (MeshStore::publish) after waiting for the stream.
-  /// After an error, no copy is running. Errors: same as Stream::copy. Throws std::bad_alloc.
+  /// Enqueues copies of mesh parts in the stream. The caller must wait for the stream and then publish the result
+  /// (MeshStore::publish). If an error is returned, no copy is running. Errors: those of Stream::copy. Throws
+  /// std::bad_alloc.
   Result<std::unique_ptr<Placement>> keep(Stream& stream, std::span<const PartSources> chunks);
-  /// Precondition: no placement is still being written. Releases the imported memory although the blocks continue to
-  /// exist, since it would keep the memory of a lost device alive.
+  /// Releases the imported memory although the blocks continue to exist: otherwise it would keep the memory of a lost
+  /// device alive. Precondition: no placement is still being written.
   ~PlacedMeshes();
   PlacedMeshes(const PlacedMeshes&) = delete;
   PlacedMeshes& operator=(const PlacedMeshes&) = delete;
@@ -32,13 +33,13 @@ class PlacedMeshes {
  private:
   struct Import;
   PlacedMeshes(Device& device, std::shared_ptr<MeshStore> store) : device_(device), store_(std::move(store)) {}
-  /// Imports the block's memory into the device.
+  /// Imports a block's memory into the device, or returns the existing import.
   Result<std::shared_ptr<const ImportedMemory>> import(SharedBlock& block);
 
   Device& device_;
   const std::shared_ptr<MeshStore> store_;
-  std::mutex mutex_;                            ///< guards the following members
-  std::vector<std::weak_ptr<Import>> imports_;  ///< the imports that this object has stored in the blocks
+  std::mutex mutex_;                            ///< guards `imports_`
+  std::vector<std::weak_ptr<Import>> imports_;  ///< all imports that this object has stored in blocks
 };
 
 }  // namespace sgm::cuda

@@ -1,4 +1,4 @@
-# Writes the SPIR-V words of INPUT as a C++ array SYMBOL into the header OUTPUT.
+# Writes the SPIR-V words of the file INPUT to the header OUTPUT, as a C++ array named SYMBOL.
 file(READ ${INPUT} bytes HEX)
 string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1u," words "${bytes}")
 string(REGEX REPLACE "(0x........u,0x........u,0x........u,0x........u,0x........u,0x........u,0x........u,0x........u,)"

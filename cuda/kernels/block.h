@@ -1,13 +1,13 @@
 #pragma once
-// The programming model of kernels: a block of threads runs phases, with scans between them.
+// The programming model of kernels: a block of threads runs phases, with prefix sums (scans) between them.
 //
 // A kernel is a class with the constant kThreads, the plain struct Shared, and
 //   template <class Block> SGM_KERNEL static void run(Block& block, const Batch& batch, Shared& shared);
-// Within run(), all code outside of a phase gives the same result in all threads of the block. block.each(f) is a
-// phase: it calls f(thread) for each thread, in any order, and all calls have ended before the next line. So a phase is
-// a plain function without a barrier, and the same source runs on a GPU as threads, and on the CPU as a loop. Data that
-// threads of one phase write may be read by other threads only in a later phase; writes to the same place must use the
-// functions below.
+// Within run(), code outside of a phase is executed by every thread of the block with the same result. block.each(f) is
+// a phase: it calls f(thread) for each thread number, in any order; all calls have ended before the next line. A phase
+// thus needs no explicit barrier, and the same source runs as threads on a GPU and as a loop on the CPU. Data written
+// in one phase may be read by other threads only in a later phase. Concurrent writes to the same address must use the
+// atomic functions below.
 
 #include <bit>
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace sgm::cuda {
 
-/// Adds to a sum atomically; returns the previous value.
+/// Adds `by` to `sum` atomically; returns the previous value.
 SGM_KERNEL uint32_t addTo(uint32_t& sum, uint32_t by) {
 #ifdef __CUDA_ARCH__
   return atomicAdd(&sum, by);
@@ -27,7 +27,7 @@ SGM_KERNEL uint32_t addTo(uint32_t& sum, uint32_t by) {
 #endif
 }
 
-/// Adds to a sum atomically. Values are two's complement and may be negative.
+/// Adds `by` to `sum` atomically. The values may be negative numbers in two's complement.
 SGM_KERNEL void addTo(uint64_t& sum, uint64_t by) {
 #ifdef __CUDA_ARCH__
   atomicAdd(reinterpret_cast<unsigned long long*>(&sum), static_cast<unsigned long long>(by));
@@ -60,7 +60,7 @@ SGM_KERNEL uint32_t countOf(uint64_t bits) {
 #endif
 }
 
-/// Returns the index of the lowest set bit. Precondition: a bit is set.
+/// Returns the index of the lowest set bit. Precondition: at least one bit is set.
 SGM_KERNEL uint32_t lowestOf(uint64_t bits) {
 #ifdef __CUDA_ARCH__
   return static_cast<uint32_t>(__ffsll(static_cast<long long>(bits)) - 1);
@@ -69,7 +69,8 @@ SGM_KERNEL uint32_t lowestOf(uint64_t bits) {
 #endif
 }
 
-/// Returns the last index whose value is at most `value`. The values must ascend, and the first one be at most `value`.
+/// Binary search: returns the last index whose element is at most `value`. Requires ascending elements, the first of
+/// which is at most `value`.
 SGM_KERNEL uint32_t lastAtMost(const uint32_t* values, uint32_t count, uint32_t value) {
   uint32_t lo = 0, hi = count;
   while (hi - lo > 1) {

@@ -1,19 +1,20 @@
 #pragma once
-// Counts the output from signs alone: for each row of a body, and for each row and cell of a seam. Then computes where
-// each part begins in the output.
+// Counts the vertices and indices of each mesh part from the samples' signs alone: for each row of a body (a chunk's
+// own surface), and for each row and cell of a seam (the strip between a chunk and a coarser neighbour). Then computes
+// the offset of each part in the output.
 
 #include "cuda/kernels/grid.h"
 
 namespace sgm::cuda {
 
-/// Returns the case of the cell at x in row (y, z) of cells.
+/// Returns the marching cubes case of the cell at (x, y, z), one bit for each corner that is solid.
 SGM_KERNEL uint32_t caseOf(const uint64_t* signs, uint32_t x, int y, int z) {
   const uint64_t* row = signs + rowOf(y, z);
   const auto two = [&](size_t at) { return static_cast<uint32_t>(row[at] >> x & 3); };
   return two(0) | two(1) << 2 | two(kSide) << 4 | two(kSide + 1) << 6;
 }
 
-/// Returns the mask of the cells in row (y, z) that the surface crosses.
+/// Returns a mask of the active cells in row (y, z): those that the surface crosses.
 SGM_KERNEL uint64_t activeCells(const uint64_t* signs, int y, int z) {
   const uint64_t* row = signs + rowOf(y, z);
   const uint64_t a = row[0], b = row[1], c = row[kSide], d = row[kSide + 1];
@@ -21,7 +22,7 @@ SGM_KERNEL uint64_t activeCells(const uint64_t* signs, int y, int z) {
   return (some | some >> 1) & ~(all & all >> 1) & ((uint64_t{1} << kChunkCells) - 1);
 }
 
-/// Counts bodies: one block per chunk.
+/// Kernel: counts the vertices and indices of bodies. One block per chunk.
 struct CensusBody {
   static constexpr uint32_t kThreads = 256;
   struct Shared {
@@ -65,9 +66,10 @@ struct CensusBody {
   }
 };
 
-/// The range of a chunk's samples that lie on one of its faces.
+/// The samples of a chunk that lie on one of its faces, addressed by coordinates u and v.
 struct FacePlane {
-  uint32_t origin, step_u, step_v;  ///< index of the first sample, and differences of indices along u and v
+  uint32_t origin, step_u, step_v;  ///< number of the first sample, and the differences of sample numbers along u and
+                                    ///< along v
   SGM_KERNEL explicit FacePlane(Face face) {
     const uint32_t steps[3] = {1, kSide, kRows};
     const int axis = faceAxis(face);
@@ -78,7 +80,8 @@ struct FacePlane {
   SGM_KERNEL uint32_t sample(uint32_t a, uint32_t b) const { return origin + a * step_u + b * step_v; }
 };
 
-/// Crossed edges of one row of a plane of signs, along u and along v. The plane has `cells` cells per side.
+/// The edges, along u and along v, of one row of a sign plane whose ends have different signs. cells: number of cells
+/// along each side of the plane.
 struct PlaneEdges {
   uint64_t u, v;
   template <class Word>
@@ -93,7 +96,7 @@ struct PlaneEdges {
   }
 };
 
-/// Returns the mask of the coarse corners of a row at which the signs of the two levels differ.
+/// Returns a mask of the corners in a coarse row at which the fine and the coarse level have different signs.
 SGM_KERNEL uint64_t lateralEdges(const uint64_t* plane, const uint32_t* coarse, uint32_t row) {
   uint64_t edges = 0;
   for (uint32_t a = 0; a < kCoarseSide; ++a) {
@@ -102,7 +105,7 @@ SGM_KERNEL uint64_t lateralEdges(const uint64_t* plane, const uint32_t* coarse, 
   return edges;
 }
 
-/// Counts seams: one block per seam, one thread per cell.
+/// Kernel: counts the vertices and indices of seams. One block per seam, one thread per cell.
 struct CensusSeam {
   static constexpr uint32_t kThreads = kSeamCells;
   struct Shared {
@@ -166,7 +169,7 @@ struct CensusSeam {
   }
 };
 
-/// Runs as one block: places the parts one after the other in the output, as far as there is memory.
+/// Kernel of one block: assigns each part consecutive ranges in the output arrays, as long as there is room.
 struct Allocate {
   static constexpr uint32_t kThreads = 256;
   struct Shared {

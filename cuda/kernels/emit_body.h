@@ -1,5 +1,6 @@
 #pragma once
-// Writes the vertices and triangles of bodies, in the same order as mesh/body.cpp.
+// Kernels that write the vertices and triangles of bodies (the chunks' meshes without seams to coarser neighbours), in
+// the same order as mesh/body.cpp on the CPU.
 
 #include "cuda/kernels/census.h"
 #include "cuda/kernels/field.h"
@@ -7,7 +8,8 @@
 
 namespace sgm::cuda {
 
-/// One block per sampled brick: writes its vertices, with attributes from the brick's program.
+/// Kernel: writes the vertices of a brick, with attributes from the brick's pruned program. One block per sampled
+/// brick.
 struct BodyVertices {
   static constexpr uint32_t kThreads = 96;
   static constexpr uint32_t kBrickRows = (kBrickCells + 1) * (kBrickCells + 1);
@@ -52,7 +54,7 @@ struct BodyVertices {
     }
   }
 
-  /// Writes vertex number n of those in a row whose edges start at the samples in `owners`.
+  /// Writes vertex n of row (y, z), counting only vertices on edges that start at the samples in the mask `owners`.
   SGM_KERNEL static void emit(const Batch& b, uint32_t chunk_number, const ProgramView& view, int y, int z,
                               uint64_t owners, uint32_t n, PartSum& sum) {
     const Chunk& chunk = b.chunks[chunk_number];
@@ -83,7 +85,7 @@ struct BodyVertices {
   }
 };
 
-/// One block per chunk: lists its active cells.
+/// Kernel: lists the active cells of a chunk. One block per chunk.
 struct ListCells {
   static constexpr uint32_t kThreads = 256;
   struct Shared {
@@ -116,7 +118,7 @@ struct ListCells {
   }
 };
 
-/// kSlices blocks per chunk share its active cells; one thread per cell writes triangles.
+/// Kernel: writes triangles, one thread per active cell. kSlices blocks share the active cells of a chunk.
 struct BodyTriangles {
   static constexpr uint32_t kThreads = 128;
   static constexpr uint32_t kSlices = 8;
@@ -132,7 +134,7 @@ struct BodyTriangles {
     const uint64_t* signs = b.signs + size_t{kRows} * chunk_number;
     const Row* rows = b.rows + size_t{kRows} * chunk_number;
     const Cell* cells = b.cells + size_t{kCells} * chunk_number;
-    // The row after the last row of cells contains the totals.
+    // Entries count all previous rows, so the row after the last row of cells has the chunk's totals.
     const uint32_t active = rows[rowOf(kChunkCells, kChunkCells - 1)].cells;
     block.each([&](uint32_t thread) {
       if (thread < 2) shared.hash[thread] = 0;
@@ -160,7 +162,7 @@ struct BodyTriangles {
       const int n = *loop++;
       LoopPoint points[kLongestCubeLoop];
       for (int i = 0; i < n; ++i) {
-        // Decodes the edge's number, 4 axis + b0 + 2 b1 (mesh/tables.h).
+        // Decode the number of a cell's edge: 4 axis + b0 + 2 b1 (mesh/tables.h).
         const uint32_t edge = loop[i], axis = edge / 4, first = edge & 1, second = edge >> 1 & 1;
         const uint32_t dx = axis == 0 ? 0 : first, dy = axis == 0 ? first : axis == 1 ? 0 : second;
         const int row_y = y + static_cast<int>(dy), row_z = z + static_cast<int>(axis == 2 ? 0 : second);

@@ -1,5 +1,6 @@
 #pragma once
-// Writes the vertices and triangles of seams, in the same order as mesh/seam.cpp.
+// Kernels that write the vertices and triangles of seams (strips between a chunk and a coarser neighbour), in the same
+// order as mesh/seam.cpp on the CPU.
 
 #include "cuda/kernels/census.h"
 #include "cuda/kernels/field.h"
@@ -7,7 +8,7 @@
 
 namespace sgm::cuda {
 
-/// Finds the numbers of a seam's vertices by their edges.
+/// Computes the number of a seam's vertex from the edge on which the vertex lies.
 struct SeamNumbers {
   const SeamCensus& census;
   const uint32_t* coarse_signs;
@@ -22,7 +23,7 @@ struct SeamNumbers {
     const uint64_t before = (uint64_t{1} << a) - 1;
     return census.first_lateral + census.lateral[b] + countOf(lateralEdges(census.plane, coarse_signs, b) & before);
   }
-  /// Returns the number of the vertex on edge e of the cell over coarse square (a, b); edges are numbered as in
+  /// Returns the number of the vertex on edge e of the seam cell over coarse square (a, b). Edge numbers are those of
   /// mesh/tables.h.
   SGM_KERNEL uint32_t ofEdge(uint32_t a, uint32_t b, uint32_t e) const {
     if (e < 6) return fine(2 * a + e % 2, 2 * b + e / 2, false);
@@ -33,7 +34,8 @@ struct SeamNumbers {
   }
 };
 
-/// One block per seam: writes its vertices, each with attributes from the field of its own level.
+/// Kernel: writes the vertices of a seam; their attributes come from the field of the level to which the vertex
+/// belongs. One block per seam.
 struct SeamVertices {
   static constexpr uint32_t kThreads = 96;
   struct Shared {
@@ -58,13 +60,14 @@ struct SeamVertices {
     });
   }
 
-  /// An edge in the face: its lower end, and true if it runs along v.
+  /// An edge in the face: (a, b) is its lower end; it runs along v if along_v, otherwise along u.
   struct Edge {
     uint32_t a, b;
     bool along_v;
   };
 
-  /// Returns crossed edge number n of a plane of signs; `before` contains the counts before each row.
+  /// Returns edge n among those of a sign plane whose ends have different signs. before: for each row, the number of
+  /// such edges in all previous rows.
   template <class Word>
   SGM_KERNEL static Edge edgeOf(const Word* plane, const uint32_t* before, uint32_t side, uint32_t n) {
     const uint32_t row = lastAtMost(before, side, n);
@@ -122,7 +125,7 @@ struct SeamVertices {
   }
 };
 
-/// One block per seam, one thread per cell: writes triangles.
+/// Kernel: writes the triangles of a seam. One block per seam, one thread per cell.
 struct SeamTriangles {
   static constexpr uint32_t kThreads = kSeamCells;
   struct Shared {

@@ -1,6 +1,6 @@
 #pragma once
-// Evaluates values and attributes of field programs at points, in one thread, with the interpreter that the CPU uses,
-// too.
+// Evaluates values and attributes of field programs at points, in one GPU thread, with the same interpreter as on the
+// CPU.
 
 #include <cstdint>
 #include <cstring>
@@ -23,7 +23,7 @@ FN void storeInt(Int i, uint32_t* p) { *p = static_cast<uint32_t>(i); }
 
 namespace together {
 
-/// Number of samples that a thread evaluates together, so that each instruction is read once for all of them.
+/// Number of samples that a thread evaluates together, so that it reads each instruction once for all of them.
 inline constexpr size_t kEvalBlock = 4;
 #include "field/evaluate_kernel.inl"
 
@@ -40,7 +40,7 @@ inline constexpr size_t kEvalBlock = 1;
 
 inline constexpr uint32_t kSamplesTogether = at_point::together::kEvalBlock;
 
-/// Computes the quantised samples at the points. points: x of all points, y of all, z of all.
+/// Computes the quantised field values at several points. points: all x, all y, all z.
 SGM_KERNEL void sampleField(const ProgramView& program, const int32_t (&points)[3][kSamplesTogether],
                             int32_t (&q)[kSamplesTogether]) {
   using namespace at_point::together;
@@ -56,7 +56,7 @@ SGM_KERNEL void sampleField(const ProgramView& program, const int32_t (&points)[
   }
 }
 
-/// Sets the normal and the label of a vertex from the field at its position.
+/// Sets the normal and the label of a vertex from the field at position `at`.
 SGM_KERNEL void giveAttributes(const ProgramView& program, Int3 at, Vertex& vertex) {
   using namespace at_point::alone;
   uint32_t registers[(kMaxRegisters + 2) * kRegisterWords<true>];

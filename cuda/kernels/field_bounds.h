@@ -1,5 +1,5 @@
 #pragma once
-// Bounds a field over a box in float32 (shaders/common/bounds.h), and prunes its program to that box.
+// Computes bounds of a field over a box in float32 (shaders/common/bounds.h), and prunes its program to that box.
 
 #include <algorithm>
 
@@ -61,7 +61,7 @@ SGM_KERNEL float sumOfSizes(Params P, int first, int last) {
   return sum;
 }
 
-/// Same as sizeSum of field/interval.h, without a margin for rounding, which positionBounds adds.
+/// Same as sizeSum in field/interval.h, but without the margin for rounding errors, which positionBounds adds.
 SGM_KERNEL float sizesOf(Op op, Params P) {
   switch (op) {
     case Op::sphere:
@@ -89,8 +89,8 @@ SGM_KERNEL float sizesOf(Op op, Params P) {
   }
 }
 
-/// Returns the smallest and the largest sample of a lattice, which the host has stored after the samples
-/// (batch_plan.h).
+/// Returns the smallest and the largest sample of a lattice; the host appended both to the lattice's samples
+/// (appendLattice in batch_plan.cpp).
 SGM_KERNEL Bounds samplesOf(Params P) {
   const uint32_t at = 10 + P[5] * P[6] * P[7];
   return makeBounds(uniformFloat(P[at]), uniformFloat(P[at + 1]));
@@ -120,7 +120,7 @@ SGM_KERNEL float valueInMiddle(Op op, Params P, const Box3& box) {
     case Op::prism:
       return opPrism(x, y, z, P).v;
     default:
-      return 0;  // other ops have no such bound
+      return 0;  // bounds of other ops do not use the value at the box's middle
   }
 }
 
@@ -153,7 +153,8 @@ SGM_KERNEL Mark boundRoundCut(Mark a, Mark b, float k) {
 }
 
 SGM_KERNEL Box3 movePlaces(const Box3& from, Mark x, Mark y, Mark z) {
-  // A position that a warp could move beyond the end of the world may be anywhere in the world.
+  // If a warp could move a position beyond the end of the world along an axis, the bounds on that axis become the whole
+  // world.
   constexpr int kLowest = -2147483647 - 1, kHighest = 2147483647;
   Box3 to{movedTo(from.lo_x, x.lo, -1.0f), movedTo(from.lo_y, y.lo, -1.0f), movedTo(from.lo_z, z.lo, -1.0f),
           movedTo(from.hi_x, x.hi, 1.0f),  movedTo(from.hi_y, y.hi, 1.0f),  movedTo(from.hi_z, z.hi, 1.0f)};

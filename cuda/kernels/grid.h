@@ -1,5 +1,5 @@
 #pragma once
-// Conversions between indices in a chunk and in the arrays of a batch.
+// Conversions between positions in a chunk and indices in the arrays of a batch.
 
 #include "cuda/kernels/batch.h"
 #include "cuda/kernels/block.h"
@@ -10,7 +10,8 @@ namespace sgm::cuda {
 
 SGM_KERNEL size_t rowOf(int y, int z) { return static_cast<size_t>(y) + size_t{kSide} * static_cast<size_t>(z); }
 
-/// A brick: one of a chunk's 64 boxes of 8^3 samples; the last box on each axis has one more.
+/// One of the 64 boxes into which a chunk's samples are divided: 8 samples along each axis, and 9 in the last brick of
+/// an axis.
 struct Brick {
   int at[3];
   SGM_KERNEL explicit Brick(uint32_t number)
@@ -20,7 +21,7 @@ struct Brick {
     return at[axis] == 3 ? kChunkCells : first(axis) + static_cast<int>(kBrickCells) - 1;
   }
   SGM_KERNEL int count(int axis) const { return last(axis) - first(axis) + 1; }
-  /// Returns the mask of the brick's samples in the signs of a row.
+  /// Returns a mask of the brick's samples within the sign word of a row.
   SGM_KERNEL uint64_t bits() const { return ((uint64_t{1} << count(0)) - 1) << first(0); }
 };
 
@@ -39,7 +40,7 @@ SGM_KERNEL ProgramView viewOf(const Batch& b, const Program& p) {
   return view;
 }
 
-/// Returns a program that is valid in the item's box: the pruned one if there is one.
+/// Returns a program that is valid in the item's box: the pruned program if it exists, otherwise the whole program.
 SGM_KERNEL ProgramView viewOf(const Batch& b, const Item& item) {
   ProgramView view = viewOf(b, b.programs[item.program]);
   if (item.pruned == 0) return view;
@@ -57,7 +58,8 @@ SGM_KERNEL ChunkGrid gridOf(const Chunk& chunk) {
   return grid;
 }
 
-/// The crossed edges that start at the samples of one row: one word per axis, one bit per sample.
+/// The edges, from the samples of one row to the next sample along each axis, whose ends have different signs: one word
+/// per axis, bit x for the edge that starts at sample x.
 struct RowEdges {
   uint64_t x, y, z;
   SGM_KERNEL RowEdges(const uint64_t* signs, int row_y, int row_z) {
@@ -69,14 +71,14 @@ struct RowEdges {
   SGM_KERNEL uint32_t countIn(uint64_t samples) const {
     return countOf(x & samples) + countOf(y & samples) + countOf(z & samples);
   }
-  /// Returns the number of the row's vertices before the one on the edge from sample `at` along `axis`.
+  /// Returns how many vertices of the row precede the vertex on the edge that starts at sample `at` along `axis`.
   SGM_KERNEL uint32_t before(uint32_t at, uint32_t axis) const {
     return countIn((uint64_t{1} << at) - 1) + (axis > 0 ? static_cast<uint32_t>(x >> at & 1) : 0) +
            (axis > 1 ? static_cast<uint32_t>(y >> at & 1) : 0);
   }
 };
 
-/// The sums of the content hash (mesh/hash.h) that one thread accumulates.
+/// One thread's contribution to the content hash of a part (mesh/hash.h).
 struct PartSum {
   uint32_t a = 0, b = 0;
   SGM_KERNEL void add(uint32_t word, uint32_t place) {

@@ -1,5 +1,5 @@
 #pragma once
-// All kernels, in the order in which a batch runs them.
+// All kernels, in the order in which a batch launches them.
 
 #include "cuda/kernels/census.h"
 #include "cuda/kernels/emit_body.h"
@@ -8,7 +8,7 @@
 #include "cuda/kernels/sample.h"
 #include "cuda/kernels/sums.h"
 
-/// SGM_CUDA_KERNEL(class)
+/// The list of kernels: SGM_CUDA_KERNEL(class of the kernel)
 #define SGM_CUDA_KERNELS         \
   SGM_CUDA_KERNEL(Prune)         \
   SGM_CUDA_KERNEL(Sample)        \

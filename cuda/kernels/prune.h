@@ -1,6 +1,6 @@
 #pragma once
-// Finds the uniform boxes of a chunk, and prunes its programs to the other boxes. One block per program, one thread per
-// box.
+// Kernel that finds the boxes of a chunk without surface, and prunes its programs to the other boxes. One block per
+// program, one thread per box.
 
 #include "cuda/kernels/batch.h"
 #include "cuda/kernels/block.h"
@@ -9,8 +9,8 @@
 
 namespace sgm::cuda {
 
-/// One box's column of a table. The entries of all boxes for one row are adjacent in memory, so that threads read them
-/// together.
+/// The column of one box in a table whose rows are instructions or groups. The entries of a row are adjacent in memory,
+/// so that the accesses of neighbouring threads coalesce.
 template <class Entry>
 struct Column {
   Entry* first;
@@ -37,8 +37,8 @@ struct Prune {
     const Int3 origin{chunk.origin[0], chunk.origin[1], chunk.origin[2]};
     IntBox box{origin, origin};
     if (job.kind == PruneJob::bricks) {
-      // Bricks are bounded together with one more sample on each side, so if a brick is uniform, no edge that leaves it
-      // changes sign.
+      // Bound a brick together with one more sample on each side: if the field has one sign there, no edge that leaves
+      // the brick has a vertex.
       const Brick brick(number);
       for (int axis = 0; axis < 3; ++axis) {
         const int first = brick.first(axis) - 1, last = brick.last(axis) + 1;
@@ -85,7 +85,7 @@ struct Prune {
     if (sampled) b.sampled[addTo(b.head->sampled, 1)] = at;
   }
 
-  /// Writes the pruned program to the pool. If the pool is full, the whole program is used, which gives the same
+  /// Writes the pruned program to the pool. If the pool is full, the item uses the whole program, which gives the same
   /// results.
   SGM_KERNEL static void keep(const Batch& b, const ProgramView& view, const Column<Mark>& marks,
                               const Column<GroupBounds>& groups, Item& item) {
@@ -131,8 +131,8 @@ struct Prune {
     }
   }
 
-  /// True if the box must be sampled. If only seams are requested, only bricks at their faces are. Planes for the
-  /// chunk's own field are not sampled, because they only serve attributes.
+  /// True if the box must be sampled. If only seams are requested, only bricks at the faces of these seams are sampled.
+  /// Face planes of the chunk's own field are not sampled: their pruned programs only serve vertex attributes.
   SGM_KERNEL static bool isSampled(const Batch& b, const PruneJob& job, uint32_t number) {
     if (job.kind != PruneJob::bricks) return job.kind == PruneJob::coarse_planes;
     const uint32_t faces = b.chunks[job.chunk].faces;

@@ -1,5 +1,5 @@
 #pragma once
-// Computes the samples and signs of the items that are not uniform, as listed by pruning: one block per item.
+// Kernel that computes the samples and signs of all items that pruning listed as not uniform. One block per item.
 
 #include "cuda/kernels/field.h"
 #include "cuda/kernels/grid.h"
@@ -30,15 +30,17 @@ struct Sample {
     }
   }
 
-  /// The samples of an item: their positions, and where Q and signs are written.
+  /// The samples of an item: their world positions, and the addresses for their values Q and signs.
   struct Lattice {
     Int3 origin, step_x, step_y, step_z;  ///< in units
     uint32_t size[3];
     int32_t* samples;
-    uint32_t stride_y, stride_z;  ///< in samples; samples along x are adjacent
-    uint64_t* signs;              ///< for a brick: the signs of its first row
-    uint32_t* coarse_signs;       ///< for a plane: the signs of its first row
-    uint32_t shift;               ///< bit of a row's first sample
+    uint32_t stride_y, stride_z;  ///< distances between rows and between layers in `samples`, in elements; neighbours
+                                  ///< along x are adjacent
+    uint64_t* signs;              ///< for a brick: address of the sign word of its first row; otherwise null
+    uint32_t* coarse_signs;       ///< for a coarse face plane: address of the sign word of its first row; otherwise
+                                  ///< null
+    uint32_t shift;               ///< bit number, within a sign word, of the first sample of a row
 
     SGM_KERNEL Lattice(const Batch& b, uint32_t item)
         : step_x{}, step_y{}, step_z{}, signs(nullptr), coarse_signs(nullptr) {
@@ -48,7 +50,7 @@ struct Sample {
       const Chunk& chunk = b.chunks[chunk_number];
       origin = gridOf(chunk).origin;
       if (plane) {
-        // See coarseFacePoint in mesh/seam.h.
+        // The positions are those of coarseFacePoint in mesh/seam.h.
         const auto face = static_cast<Face>(b.seams[seam_number].face);
         const int axis = faceAxis(face);
         origin[axis] += faceIsHigh(face) ? kChunkCells * chunk.cell : 0;
@@ -98,7 +100,8 @@ struct Sample {
     }
   };
 
-  /// Evaluates the samples from number i on that a thread takes together; unused places repeat the last sample.
+  /// Evaluates kSamplesTogether samples from number i on. Beyond the last sample, evaluates the last one again and
+  /// discards it.
   SGM_KERNEL static void take(const ProgramView& view, const Lattice& lattice, uint32_t i) {
     uint32_t at[kSamplesTogether][3];
     int32_t points[3][kSamplesTogether], q[kSamplesTogether];

@@ -1,5 +1,5 @@
 #pragma once
-// Computes the sums over the triangles of parts, for chunks that do not request meshes.
+// Kernel that computes the sums over the triangles of parts, for chunks that do not request meshes.
 
 #include "cuda/kernels/batch.h"
 #include "cuda/kernels/block.h"
@@ -7,7 +7,7 @@
 
 namespace sgm::cuda {
 
-/// kSlices blocks per part share its triangles.
+/// kSlices blocks share the triangles of a part.
 struct SumTriangles {
   static constexpr uint32_t kThreads = 128;
   static constexpr uint32_t kSlices = 4;

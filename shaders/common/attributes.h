@@ -4,8 +4,8 @@ struct PackedNormal {
   Int x, y;
 };
 
-// Packs a gradient as a normal. The gradient points out of the solid, because the field grows in that direction. A
-// gradient of length 0 gives +y.
+// Packs a gradient as a normal. The field grows out of the solid, so its gradient points outwards. A gradient of length
+// 0 becomes +y.
 FN PackedNormal packNormal(Real dx, Real dy, Real dz) {
   PRECISE Real gx = clampReal(dx, -1.0e18f, 1.0e18f);
   PRECISE Real gy = clampReal(dy, -1.0e18f, 1.0e18f);
@@ -17,7 +17,7 @@ FN PackedNormal packNormal(Real dx, Real dy, Real dz) {
   PRECISE Real x = sel(level, broadcast(0.0f), gx * inv);
   PRECISE Real y = sel(level, broadcast(1.0f), gy * inv);
   PRECISE Real z = sel(level, broadcast(0.0f), gz * inv);
-  // The lower half of the octahedron (z < 0) is folded over its edges.
+  // The lower half of the octahedron (z < 0) is folded outwards over its edges.
   PRECISE Real fx = 1.0f - absReal(y);
   fx = fx * signOf(x);
   PRECISE Real fy = 1.0f - absReal(x);
@@ -33,6 +33,6 @@ FN PackedNormal packNormal(Real dx, Real dy, Real dz) {
   return r;
 }
 
-// Makes every zero positive. Vulkan does not define the sign of zero results, and pruning may change it. Nor does
-// Vulkan define how denormals behave: they become 0, too.
+// Makes every zero positive, and denormals zero. Vulkan defines neither the sign of a zero result, which pruning may
+// change, nor how denormals behave.
 FN Real unsignedZero(Real x) { return flushReal(x); }

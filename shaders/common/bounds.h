@@ -1,17 +1,16 @@
-// Bounds of the evaluators' results over a box of positions, in float32. They are wider than the host's
-// (field/interval.h): by ten roundings of the largest magnitude at every step, and by each op's stated error. How tight
-// they are never affects a mesh, because a program gives the same bits whether it is pruned or not.
-//
-// Written in the subset of portable.h, for devices. The including file must have included common.h, and must define
-// kOp_NAME and kStatedErrors (ops.def), Box3 (a box of whole positions) and, in C++, min, max, abs, clamp and floor of
-// floats.
+// Bounds of an evaluator's results over a box of positions, in float32. They are wider than the bounds on the CPU
+// (field/interval.h): by ten roundings of the largest magnitude at every step, and by each op's stated error. The
+// tightness of the bounds never affects a mesh, because a program gives the same bits whether it is pruned or not.
+// Written in the subset of portable.h, for devices. Before this file, the including file must include common.h, and
+// define kOp_NAME and kStatedErrors (ops.def), Box3 (a box of whole positions) and, in C++, min, max, abs, clamp and
+// floor of floats.
 
 struct Bounds {
   float lo, hi;
 };
 
 const float kMaxBound = 1.0e30f;
-const float kHeldAt = 1.0e18f;  // results of expressions are clamped to this magnitude (real.h)
+const float kHeldAt = 1.0e18f;  // maximum magnitude of an expression's result (real.h)
 
 FN Bounds makeBounds(float lo, float hi) {
   Bounds b;
@@ -42,7 +41,8 @@ FN Bounds sumOf(Bounds a, Bounds b) {
   return widened(makeBounds(a.lo + b.lo, a.hi + b.hi), 1.0e-6f * (magnitudeOf(a) + magnitudeOf(b)));
 }
 
-// Returns (1 - t) a + t b over all t of an interval. It is linear in t, so the ends of the interval suffice.
+// Returns bounds of (1 - t) a + t b over all t of an interval. The term is linear in t, so the ends of the interval
+// suffice.
 FN Bounds blendOf(Bounds a, Bounds b, Bounds t) {
   Bounds low = sumOf(productOf(a, makeBounds(1.0f - t.lo, 1.0f - t.lo)), productOf(b, makeBounds(t.lo, t.lo)));
   Bounds high = sumOf(productOf(a, makeBounds(1.0f - t.hi, 1.0f - t.hi)), productOf(b, makeBounds(t.hi, t.hi)));
@@ -50,7 +50,8 @@ FN Bounds blendOf(Bounds a, Bounds b, Bounds t) {
                  1.0e-6f * (magnitudeOf(a) + magnitudeOf(b)) * (1.0f + magnitudeOf(t)));
 }
 
-// Returns exactly 0 if the kernel is certainly 0, so that pruning may remove the operand.
+// Returns bounds of the kernel max(0, 1 - x)^3 (kernelOf in primitives.h). They are exactly 0 if the kernel is
+// certainly 0, so that pruning may remove the operand.
 FN Bounds kernelRange(Bounds x, float error) {
   float slack = (error + 1.0e-6f) * (1.0f + magnitudeOf(x));
   float low = max(0.0f, 1.0f - (x.hi + slack)), high = max(0.0f, 1.0f - max(0.0f, x.lo - slack));
@@ -59,7 +60,7 @@ FN Bounds kernelRange(Bounds x, float error) {
   return makeBounds(max(0.0f, low - error - 1.0e-6f), high > 0.0f ? high + error + 1.0e-6f : 0.0f);
 }
 
-// Returns the offsets of positions from a centre along one axis; and the squares of offsets.
+// Return bounds of the offsets of positions from a centre along one axis, and of squares of offsets.
 FN Bounds offsetRange(int lo, int hi, int centre) {
   return widened(makeBounds(float(saturatingSub(lo, centre)), float(saturatingSub(hi, centre))), 0.0f);
 }
@@ -68,7 +69,8 @@ FN Bounds squareOf(Bounds a) {
   return widened(makeBounds(a.lo <= 0.0f && a.hi >= 0.0f ? 0.0f : min(l, h), max(l, h)), 0.0f);
 }
 
-// Returns bounds of an op on operands. number: the op; all callers pass a constant, so that only its line is compiled.
+// Returns bounds of an op that combines operands. number: the op; every caller passes a constant, so that the compiler
+// keeps only this op's line.
 FN Bounds operandBounds(uint number, Bounds a, Bounds b, Bounds c, float p0, float p1) {
   float error = kStatedErrors[number];
   if (number == kOp_constant) return makeBounds(p0, p0);
@@ -104,7 +106,7 @@ FN Bounds operandBounds(uint number, Bounds a, Bounds b, Bounds c, float p0, flo
     Bounds u = clampedTo(t, 0.0f, 1.0f);
     float low = u.lo * u.lo * (3.0f - 2.0f * u.lo) - error - 1.0e-6f;
     float high = u.hi * u.hi * (3.0f - 2.0f * u.hi) + error + 1.0e-6f;
-    // The evaluators clamp t before any other rounding, so that its ends give exactly 0 and 1.
+    // The evaluators clamp t first. So the result is exactly 0 where t <= 0, and exactly 1 where t >= 1.
     return t.hi <= 0.0f   ? makeBounds(0.0f, 0.0f)
            : t.lo >= 1.0f ? makeBounds(1.0f, 1.0f)
                           : makeBounds(max(low, 0.0f), high);
@@ -150,8 +152,9 @@ FN Bounds sumEndRange(Bounds sum, float threshold, float size) {
   return widened(keptOf(r), (kStatedErrors[kOp_sum_end] + 2.0e-6f) * (abs(threshold) + sum.hi) * abs(size));
 }
 
-// Returns the field after a layer's adds and cuts. If pruning has removed all cuts of a layer, the end of the layer is
-// missing in the list; the layer's adds are then joined together with those of the next layer.
+// Returns bounds of the field after the shapes that a layer adds and cuts. If pruning has removed all cuts of a layer,
+// the record that ends the layer is missing; the shapes that it adds are then joined together with those of the next
+// layer.
 FN Bounds layerJoined(Bounds field, Bounds adds, Bounds cuts) {
   return makeBounds(max(min(field.lo, adds.lo), -cuts.hi), max(min(field.hi, adds.hi), -cuts.lo));
 }
@@ -165,15 +168,16 @@ FN int movedTo(int at, float by, float slack) {
 FN int middleOf(int lo, int hi) { return int(uint(lo) + ((uint(hi) - uint(lo)) >> 1)); }
 FN float halfOf(int lo, int hi) { return float(uint(hi) - uint(lo)) * 0.5f + 1.0f; }
 
-// Returns how far a value may differ from its value at the middle of the box, for ops that are nowhere steeper than 1
-// (primitives.h).
+// Returns the maximum distance of a position in the box from its middle. An op with a slope of at most 1 (primitives.h)
+// differs from its value at the middle by no more than this.
 FN float reachOf(Box3 box) {
   float x = halfOf(box.lo_x, box.hi_x), y = halfOf(box.lo_y, box.hi_y), z = halfOf(box.lo_z, box.hi_z);
   return sqrtReal(x * x + y * y + z * z) * 1.00001f;
 }
 
-// Returns bounds of an op that reads a position. middle: its value at the middle of the box; sizes: see sizeSum in
-// field/interval.h; samples: for a lattice, the range of all its samples.
+// Returns bounds of an op that reads a position. middle: value of the op at the middle of the box; sizes: sum of the
+// sizes in the op's parameters, to which rounding errors are relative (sizeSum in field/interval.h); samples: for a
+// lattice, the range of all its samples.
 FN Bounds positionBounds(uint number, Params P, float middle, float sizes, Bounds samples, Box3 box) {
   float error = kStatedErrors[number];
   if (number == kOp_noise) return makeBounds(-1.0f, 1.0f);
@@ -202,8 +206,8 @@ FN Bounds positionBounds(uint number, Params P, float middle, float sizes, Bound
   return widened(makeBounds(middle - radius, middle + radius), 3.0f * error * (farthest + sizes));
 }
 
-// The part of one axis in both norms of a power morph. q: distance of the box's middle from the centre; a, b: radii at
-// t = 0 and t = 1.
+// The contribution of one axis to both norms of a power morph. q: distance of the box's middle from the centre; a, b:
+// radii at t = 0 and t = 1.
 struct MorphAxis {
   float smallest, largest, nearest, farthest;
 };
@@ -217,8 +221,8 @@ FN MorphAxis morphAxis(float q, float a, float b, Bounds t, float reach) {
   return m;
 }
 
-// As t increases, the exponent grows, so the norm falls, and the radii change. The bounds treat both effects
-// separately, at both ends of t: ||u||_max <= ||u||_n <= ||u||_2, each for the smaller and the larger radii.
+// If t increases, the exponent grows, so the norm decreases, and the radii change as well. Both effects are bounded
+// separately, at both ends of t, by ||u||_max <= ||u||_n <= ||u||_2, each for the smaller and the larger radii.
 FN Bounds powerMorphBounds(Params P, Bounds t, float sizes, Box3 box) {
   Bounds s = clampedTo(t, 0.0f, 1.0f);
   float radius = reachOf(box);

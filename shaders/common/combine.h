@@ -18,15 +18,16 @@ FN Dual opConstant(Params P) {
   return makeDual(broadcast(PF(P, 0)), zero, zero, zero, broadcastInt(0));
 }
 
-// The coordinate of a position along a row, in metres. Parameters: 1-3 anchor, 4-6 row divided by 1024.
+// Returns the coordinate of a position along an axis, in metres. Parameters: 1-3 origin, 4-6 row of the rotation for
+// this axis, divided by 1024.
 FN Dual opCoordinate(Int px, Int py, Int pz, Params P) {
   Real v = dotRow(offsetFrom(px, py, pz, P), PF(P, 4), PF(P, 5), PF(P, 6));
   return makeDual(v, broadcast(PF(P, 4)), broadcast(PF(P, 5)), broadcast(PF(P, 6)), broadcastInt(0));
 }
 
-// The parameter along a polyline, 0..1. Parameters: 0 number of segments, then for each segment (8 words from 1 + 9 k
-// on) its start 1-3 (integers), its vector 4-6, the reciprocal of its squared length, the share of the whole length
-// before it, and its own share.
+// Returns the parameter, 0..1, of the nearest point on a polyline. Parameters: 0 number of segments, then for segment k
+// nine words from 1 + 9 k on: its start (3 integers), its vector (3), the reciprocal of its squared length, the share
+// of the whole length before it, and its own share.
 FN Dual opSweep(Int px, Int py, Int pz, Params P) {
   int count = PI(P, 0);
   PRECISE Real best = broadcast(3.0e38f);
@@ -74,7 +75,7 @@ FN Dual opFloor(Dual a) {
   return makeDual(floorReal(clampReal(a.v, -1.0e9f, 1.0e9f)), zero, zero, zero, a.label);
 }
 
-// Limits the result of an expression (see settleReal).
+// Limits the magnitude of an expression's result and its gradient (see settleReal).
 FN Dual settled(Real v, Real x, Real y, Real z, Int label) {
   return makeDual(settleReal(v), settleReal(x), settleReal(y), settleReal(z), label);
 }
@@ -114,7 +115,7 @@ FN Real twoProducts(Real p, Real a, Real q, Real b) {
   return r;
 }
 
-// The operands are limited already (settleReal), so the product cannot overflow.
+// The operands are already limited in magnitude (settleReal), so the product cannot overflow.
 FN Dual opMultiply(Dual a, Dual b) {
   PRECISE Real p = flushReal(a.v);
   PRECISE Real q = flushReal(b.v);
@@ -135,7 +136,7 @@ FN Dual opDivide(Dual a, Dual b) {
 FN Dual opMinimum(Dual a, Dual b) { return selDual(b.v < a.v, b, a); }
 FN Dual opMaximum(Dual a, Dual b) { return selDual(b.v > a.v, b, a); }
 
-// Removes b from a. The surface that b leaves behind has b's material, or, if b has none, the material of a there.
+// Removes b from a. The surface of the cut has b's material or, if b has none, the material of a there.
 FN Dual opCut(Dual a, Dual b) {
   Dual n = opNegate(b);
   n.label = mergeLabels(b.label, a.label);
@@ -147,7 +148,8 @@ FN Dual opLess(Dual a, Dual b) {
   return makeDual(sel(a.v < b.v, broadcast(1.0f), zero), zero, zero, zero, broadcastInt(0));
 }
 
-// Parameters: 0 lower edge, 1 reciprocal of (upper - lower), which is negative for a falling step.
+// A smooth step. Parameters: 0 lower edge, 1 reciprocal of (upper edge - lower edge), which is negative for a falling
+// step.
 FN Dual opSmoothstep(Dual a, Params P) {
   PRECISE Real t = a.v - PF(P, 0);
   t = t * PF(P, 1);
@@ -179,8 +181,8 @@ FN Dual opMix(Dual a, Dual b, Dual c) {
   return settled(twoProducts(k, a.v, c.v, b.v), x, y, z, a.label);
 }
 
-// Same as opMix with t clamped to 0..1; the label is that of the nearer end. The result is clamped, but denormals are
-// kept: so it equals a at t <= 0 and b at t >= 1 to the bit, which pruning relies on.
+// Returns (1 - t) a + t b with t clamped to 0..1, and the label of a or b, whichever has more weight. The result is
+// clamped, but denormals are kept: so it equals a at t <= 0 and b at t >= 1 to the bit, which pruning relies on.
 FN Dual opMorph(Dual a, Dual b, Dual t) {
   PRECISE Real w = clampReal(t.v, 0.0f, 1.0f);
   PRECISE Real k = 1.0f - w;
@@ -196,7 +198,7 @@ FN Dual opMorph(Dual a, Dual b, Dual t) {
                   sel(w < 0.5f, a.label, b.label));
 }
 
-// Returns a + 1024 b: a in units, b in metres.
+// Returns a + 1024 b, where a is in units and b in metres.
 FN Dual opDisplace(Dual a, Dual b) {
   PRECISE Real v = b.v * 1024.0f;
   v = a.v + v;
@@ -209,7 +211,7 @@ FN Dual opDisplace(Dual a, Dual b) {
   return settled(v, x, y, z, a.label);
 }
 
-// The initial values of minima and of sums: larger than every value (kFar in runtime/field/program.h), and 0.
+// Initial values: farAway() for minima, larger than every value (kFar in runtime/field/program.h); zero for sums.
 FN Dual farAway() {
   PRECISE Real zero = broadcast(0.0f);
   return makeDual(broadcast(1.0e30f), zero, zero, zero, broadcastInt(0));
@@ -218,12 +220,13 @@ FN Dual nothing() {
   PRECISE Real zero = broadcast(0.0f);
   return makeDual(zero, zero, zero, zero, broadcastInt(0));
 }
-// Adds an operand to a round union of any number of operands (design.md section 3). Two registers store it: the nearest
-// operand, and the sum of max(k - d, 0)^2.
+// Adds an operand to a round union of any number of operands (design.md section 3). Its state is in two registers: the
+// nearest operand, and the sum of max(k - d, 0)^2.
 FN Dual roundAccumulate(Dual sum, Dual d, float k) {
   PRECISE Real h = k - d.v;
   h = clampReal(h, 0.0f, 1.0e9f);
-  h = sel(h > 1.0e-15f, h, broadcast(0.0f));  // the square of a smaller value would be a denormal
+  h = sel(h > 1.0e-15f, h, broadcast(0.0f));  // a smaller value is replaced by 0, because its square would be a
+                                              // denormal
   PRECISE Real v = h * h;
   v = sum.v + v;
   PRECISE Real w = h * -2.0f;
@@ -240,7 +243,7 @@ FN Dual roundEnd(Dual nearest, Dual sum, float k) {
   PRECISE Real root = sum.v * inv;
   PRECISE Real v = maxReal(nearest.v, broadcast(k));
   v = v - root;
-  // True if nothing was added to the sum, or too little for a direction.
+  // True if the sum is empty, or too small to have a meaningful direction.
   Bool apart = (nearest.v >= k) || (sum.v <= 0.0f);
   PRECISE Real w = inv * -0.5f;
   PRECISE Real x = sum.x * w;
@@ -251,23 +254,23 @@ FN Dual roundEnd(Dual nearest, Dual sum, float k) {
 }
 FN Dual opRoundEnd(Dual nearest, Dual sum, Params P) { return roundEnd(nearest, sum, PF(P, 0)); }
 
-// Returns the round union of a field and one group. Unlike the round union of many, it equals the nearer operand to the
-// bit if either operand is at least k, so that pruning may remove such a group; and rounding never makes it larger than
-// the nearer operand.
+// Returns the round union of a field and one group of shapes. Unlike the round union of many operands, it equals the
+// nearer operand to the bit if either operand is at least k, so that pruning may remove such a group. Rounding never
+// makes it larger than the nearer operand.
 FN Dual roundUnion(Dual a, Dual b, float k) {
   Dual nearest = opMinimum(a, b);
   Dual blended = roundEnd(nearest, roundAccumulate(roundAccumulate(nothing(), a, k), b, k), k);
   Bool blends = (a.v < k) && (b.v < k) && (blended.v < nearest.v);
   return selDual(blends, blended, nearest);
 }
-// Removes b from a with a rounded edge. Labels are those of opCut.
+// Removes b from a, with a rounded edge. The label is the same as for opCut.
 FN Dual roundCut(Dual a, Dual b, float k) {
   b.label = mergeLabels(b.label, a.label);
   return opNegate(roundUnion(opNegate(a), b, k));
 }
 
-// Returns the weight of a distance in a sum with a compact kernel. Parameters: 0 reciprocal of the inner radius, 1
-// reciprocal of the squared support.
+// Returns the weight of a distance in a sum, by a kernel with compact support. Parameters: 0 reciprocal of the inner
+// radius, 1 reciprocal of the squared support radius.
 FN Dual opKernel(Dual d, Params P) {
   PRECISE Real r = d.v * PF(P, 0);
   r = r + 1.0f;
@@ -285,10 +288,10 @@ FN Dual opKernel(Dual d, Params P) {
   return settled(k.v, gx, gy, gz, d.label);
 }
 
-// Two registers store a sum: the operand with the largest weight (for its label), and the sum itself.
+// The state of a sum is in two registers: the operand with the largest weight (for its label), and the sum itself.
 FN Dual sumHeaviest(Dual heaviest, Dual w) { return selDual(w.v > heaviest.v, w, heaviest); }
 
-// Returns (threshold - sum) * length. Parameters: 0 threshold, 1 length.
+// Ends a sum: returns (threshold - sum) * length. Parameters: 0 threshold, 1 length.
 FN Dual opSumEnd(Dual heaviest, Dual sum, Params P) {
   PRECISE Real v = PF(P, 0) - sum.v;
   v = v * PF(P, 1);

@@ -1,4 +1,4 @@
-// Includes all functions from which fields are computed, in the order of their dependencies. See portable.h.
+// Includes all headers of the functions that evaluate fields, in the order of their dependencies. See portable.h.
 #include "portable.h"
 #include "real.h"
 #include "noise.h"

@@ -1,20 +1,19 @@
-// Interpolates samples on a lattice of whole positions: linear along each axis, exact at the lattice's points.
-//
-// The host's samples are multiples of 1/1024 unit, so that no difference of two of them is a denormal, which devices
-// treat differently. A position on the border of two cells is interpolated with weight 1 for the corner there. So two
-// lattices that share points agree at these points, wherever each lattice begins.
+// Interpolates samples on a lattice of integer positions, linearly along each axis and exactly at the lattice's points.
+// The samples of a host field are multiples of 1/1024 unit, so that differences of two samples are never denormals,
+// which devices treat differently. A position on the border of two cells is interpolated with weight 1 for the sample
+// there. So two lattices that share points agree at these points, wherever each lattice begins.
 
-// The cell of an axis that contains a position; the position in the cell, 0 to 1; and its change per unit. Positions
-// beyond the lattice are clamped to its end.
+// Along one axis: the lattice cell that contains a position, the position in this cell (0 to 1), and its change per
+// unit. Positions beyond the lattice are clamped to its end.
 struct SamplePlace {
   Int cell;
   Real t;
   Real slope;
 };
 
-// Integers decide in which cell a position lies: within 2^20 cells, the rounded product is the right cell or a
-// neighbour; beyond them, it is clamped to the last cell. The first and the last cell of the lattice only provide
-// slopes.
+// Integer arithmetic decides in which cell a position lies. Within 2^20 cells, the rounded product is the right cell or
+// a neighbour; beyond that, it is clamped to the last cell. The first and the last cell of the lattice are used only
+// for slopes.
 FN SamplePlace samplePlace(Int p, int origin, int spacing, int count, float inverse) {
   Int d = saturatingSub(p, broadcastInt(origin));
   d = sel(d < 0, broadcastInt(0), d);
@@ -44,14 +43,15 @@ FN Real mixSamples(Real a, Real b, Real t) {
   return r;
 }
 
-// Returns twice the slope along a row, from differences over two cells: it has no creases, and is symmetric.
+// Returns twice the slope along a row of samples, from differences over two cells, which are symmetric and have no
+// creases.
 FN Real sampleSlope(Params P, Int at, Int step, Real t) {
   PRECISE Real near = gatherReal(P, wrapAdd(at, step)) - gatherReal(P, wrapSub(at, step));
   PRECISE Real far = gatherReal(P, wrapAdd(wrapAdd(at, step), step)) - gatherReal(P, at);
   return mixSamples(near, far, t);
 }
 
-// Returns the slopes (sampleSlope) of the four rows of a cell, interpolated by tb and tc.
+// Returns the slopes (sampleSlope) along an axis, interpolated between the four rows of a cell by tb and tc.
 FN Real slopeInCell(Params P, Int at, Int along, Int b, Int c, Real t, Real tb, Real tc) {
   Real low = mixSamples(sampleSlope(P, at, along, t), sampleSlope(P, wrapAdd(at, b), along, t), tb);
   Int next = wrapAdd(at, c);
@@ -59,8 +59,9 @@ FN Real slopeInCell(Params P, Int at, Int along, Int b, Int c, Real t, Real tb, 
   return mixSamples(low, high, tc);
 }
 
-// Parameters: 1-3 origin, 4 spacing in units, 5-7 number of points along x, y, z (at least 4 each), 8 reciprocal of the
-// spacing, 9 magnitude from which a value counts as far, 10 and following: the samples in units, x fastest.
+// Interpolates the samples of a lattice. Parameters: 1-3 origin, 4 spacing in units, 5-7 number of points along x, y, z
+// (at least 4 each), 8 reciprocal of the spacing, 9 magnitude from which a value counts as far, 10 and following: the
+// samples in units, x fastest.
 FN Dual opLattice(Int px, Int py, Int pz, Params P) {
   SamplePlace x = samplePlace(px, PI(P, 1), PI(P, 4), PI(P, 5), PF(P, 8));
   SamplePlace y = samplePlace(py, PI(P, 2), PI(P, 4), PI(P, 6), PF(P, 8));

@@ -1,5 +1,5 @@
-// Gradient noise on an integer lattice (Perlin 2002, with an integer hash). It has the same precision everywhere in the
-// world, since the position in the lattice cell is computed in integers before it becomes a float.
+// Gradient noise on an integer lattice (Perlin 2002, with an integer hash). It is equally precise everywhere in the
+// world, because the position in the lattice cell is computed in integers before it is converted to a float.
 
 FN Uint hashLattice(Int x, Int y, Int z, uint seed) {
   Uint h = toUintBits(wrapMul(x, broadcastInt(-1640531535))) ^ toUintBits(wrapMul(y, broadcastInt(-2048144777))) ^
@@ -17,8 +17,8 @@ struct LatticePlace {
 };
 
 // Computes cell = floor(offset / period) and the remainder, exactly for every int32 offset and period >= 1. Two rounds
-// suffice: the first guess is off by the rounding of a large offset to float, the second by at most one. The largest
-// offsets would round up to 2^31, which is not an int32, so the guess is clamped to the last float below it.
+// suffice: the first guess is wrong by the rounding of a large offset to float, the second by at most one. The guess is
+// clamped to the largest float below 2^31, because the largest offsets would round up to 2^31, which is not an int32.
 FN LatticePlace latticePlace(Int offset, int period, float inv_period) {
   PRECISE Real guess = toReal(offset) * inv_period;
   Int cell = toInt(floorReal(minReal(guess, broadcast(2147483520.0f))));
@@ -38,8 +38,8 @@ FN LatticePlace latticePlace(Int offset, int period, float inv_period) {
   return r;
 }
 
-// Returns one of the twelve directions from a cube's centre to its edges (four of them occur twice), as a vector of -1,
-// 0, 1.
+// Returns one of the twelve directions from a cube's centre to its edges, as a vector of -1, 0, 1. The table has 16
+// entries, so four directions occur twice.
 #ifdef SGM_LANE_TABLES
 FN Vec3 latticeGradient(Uint h) {
   constexpr float kX[16] = {1, -1, 1, -1, 1, -1, 1, -1, 0, 0, 0, 0, 1, 0, -1, 0};
@@ -93,7 +93,7 @@ FN Dual cornerTerm(Int x, Int y, Int z, uint seed, Real fx, Real fy, Real fz) {
   return makeDual(v, g.x, g.y, g.z, broadcastInt(0));
 }
 
-// Returns a + (b - a) w with the gradient of the result; slope: the derivative of w along `axis`.
+// Interpolates between a and b: returns a + (b - a) w with its gradient. slope: the derivative of w along `axis`.
 FN Dual mixCorners(Dual a, Dual b, Real w, Real slope, int axis) {
   PRECISE Real d = b.v - a.v;
   PRECISE Real v = d * w;
@@ -114,7 +114,7 @@ FN Dual mixCorners(Dual a, Dual b, Real w, Real slope, int axis) {
   return makeDual(v, axis == 0 ? xs : x, axis == 1 ? ys : y, axis == 2 ? zs : z, broadcastInt(0));
 }
 
-// Returns one octave; its gradient is per unit.
+// Returns one octave of noise; its gradient is per unit.
 FN Dual noiseOctave(Int ox, Int oy, Int oz, int period, float inv_period, uint seed) {
   LatticePlace px = latticePlace(ox, period, inv_period);
   LatticePlace py = latticePlace(oy, period, inv_period);
@@ -155,8 +155,9 @@ FN Dual noiseOctave(Int ox, Int oy, Int oz, int period, float inv_period, uint s
   return makeDual(r.v, rx, ry, rz, broadcastInt(0));
 }
 
-// Returns the sum of several octaves, clamped to -1..1. Parameters: 0-2 origin, 3 number of octaves to evaluate (at
-// least one), 4 seed, 5 gain that normalises the sum, then for each octave its period and the period's reciprocal.
+// Returns the sum of several octaves of noise, clamped to -1..1. Parameters: 0-2 origin, 3 number of octaves to
+// evaluate (at least one), 4 seed, 5 gain that normalises the sum, then for each octave its period and the period's
+// reciprocal.
 FN Dual opNoise(Int px, Int py, Int pz, Params P) {
   Int ox = wrapSub(px, broadcastInt(PI(P, 0)));
   Int oy = wrapSub(py, broadcastInt(PI(P, 1)));
@@ -168,7 +169,7 @@ FN Dual opNoise(Int px, Int py, Int pz, Params P) {
   PRECISE Real y = broadcast(0.0f);
   PRECISE Real z = broadcast(0.0f);
   int k = 0;
-  do {  // at least once; software Vulkan runs the body of a `for` loop once more than its count
+  do {  // runs at least once, because software Vulkan runs the body of a `for` loop once more than its count
     Dual o = noiseOctave(ox, oy, oz, QI(P, 6 + 2 * k), QF(P, 7 + 2 * k), PU(P, 4) + 0x9E3779B9u * uint(k));
     PRECISE Real a = o.v * weight;
     v = v + a;

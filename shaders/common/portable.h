@@ -5,7 +5,7 @@
 // branches. A value that differs from sample to sample has type Real, Int, Uint or Bool; a value that is equal for all
 // samples has type float, int or uint. PF, PI and PU read a parameter word of an op that is the same for all samples;
 // gatherReal reads one for each sample. QF, QI and QU do the same as PF, PI and PU if the word's number is not a
-// constant but below 28; RF, RI and RU if it may be any number. Not every backend reads these as fast. No word may be
+// constant but below 28; RF, RI and RU if it may be any number. On some backends these reads are slower. No word may be
 // read on the right of && or ||, or in a branch that not all samples take: the invocations of a shader exchange words,
 // and one that does not take part would supply undefined words. Every product or sum that is an operand of a sum must
 // be a local variable declared PRECISE, so that GLSL does not contract it. The headers here have no include guards: a
@@ -21,7 +21,8 @@
 #define Uint uint
 #define Bool bool
 #define Params uint
-#ifndef PU  // a shader may store parameters in another way
+#ifndef PU  // parameter access by default; a shader may define these macros differently, if it stores parameters in
+            // another way
 #define PU(P, i) params[(P) + uint(i)]
 #define QU(P, i) PU(P, i)
 #define RU(P, i) PU(P, i)
@@ -59,7 +60,7 @@ FN Int wrapMul(Int a, Int b) { return a * b; }
 #define RI(P, i) PI(P, i)
 
 #ifndef SGM_WIDE
-// Scalar types: the reference, whose bits all other backends must reproduce.
+// Scalar types, for the reference evaluator, whose bits all other backends must reproduce.
 #ifdef __CUDACC__
 #define FN __host__ __device__ inline
 #else
@@ -102,7 +103,7 @@ struct Vec3 {
   Real x, y, z;
 };
 
-// A value, its gradient per world unit, and the label (tag << 16 | material) of the shape that dominates it. If only
+// A value, its gradient per world unit, and the label (tag << 16 | material) of the shape that determines it. If only
 // the value is used, the compiler removes the rest.
 struct Dual {
   Real v, x, y, z;

@@ -1,9 +1,7 @@
-// Primitives: each returns the distance in units, negative inside, with its gradient per world unit. None is steeper
-// than 1.
-//
-// The parameters P of every primitive begin with its label (0) and its integer centre (1-3). Primitives with a frame
-// have nine rows of the rotation from world to local axes next (4-12). The further parameters are listed at each
-// primitive. All reciprocals among them are computed by the host.
+// Primitives: each returns the signed distance in units, negative inside, with its gradient per world unit. No
+// primitive has a slope above 1. The parameters P of every primitive begin with its label (0) and its centre as
+// integers (1-3). Primitives with a frame continue with the rotation from world to local axes, nine numbers by row
+// (4-12). Further parameters are listed at each primitive. The CPU computes all reciprocals among the parameters.
 
 FN Vec3 offsetFrom(Int px, Int py, Int pz, Params P) {
   return makeVec3(toReal(saturatingSub(px, broadcastInt(PI(P, 1)))), toReal(saturatingSub(py, broadcastInt(PI(P, 2)))),
@@ -32,7 +30,7 @@ FN Dual fromLocal(Real v, Real gx, Real gy, Real gz, Params P) {
                   dotRow(g, PF(P, 6), PF(P, 9), PF(P, 12)), broadcastInt(PI(P, 0)));
 }
 
-// Returns the squared length; squares below 1e-15 count as 0, because devices would not agree on the direction of a
+// Returns the squared length. Squares below 1e-15 count as 0, because devices would disagree on the direction of a
 // denormal.
 FN Real lengthSquared2(Real x, Real y) {
   PRECISE Real a = x * x;
@@ -50,8 +48,8 @@ FN Real lengthSquared3(Vec3 p) {
   return sel(r > 1.0e-30f, r, broadcast(0.0f));
 }
 
-// Signed distance in a plane to a corner made of two half-planes, at signed distances a and b that are exact along
-// their own normals: outside, the corner is round; inside, the nearer face counts. ga, gb: share of each normal in the
+// Signed distance, in a plane, to the corner where two half-planes meet. a, b: exact signed distances to their borders.
+// Outside, the corner is round; inside, the nearer border counts. ga, gb: share of each border's normal in the
 // gradient.
 struct Corner {
   Real v, ga, gb;
@@ -77,7 +75,7 @@ FN Corner cornerDistance(Real a, Real b) {
   return r;
 }
 
-// Parameters: 4 radius. No frame.
+// A ball. Parameters: 4 radius. No frame.
 FN Dual opSphere(Int px, Int py, Int pz, Params P) {
   Vec3 d = offsetFrom(px, py, pz, P);
   PRECISE Real s = lengthSquared3(d);
@@ -90,7 +88,7 @@ FN Dual opSphere(Int px, Int py, Int pz, Params P) {
   return makeDual(v, gx, gy, gz, broadcastInt(PI(P, 0)));
 }
 
-// Parameters: 13-15 half extents.
+// A box. Parameters: 13-15 half extents.
 FN Dual opBox(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real zero = broadcast(0.0f);
@@ -116,7 +114,7 @@ FN Dual opBox(Int px, Int py, Int pz, Params P) {
   return fromLocal(v, gx, gy, gz, P);
 }
 
-// Parameters: 13 radius, 14 half height.
+// A cylinder along local y. Parameters: 13 radius, 14 half height.
 FN Dual opCylinder(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real s = lengthSquared2(q.x, q.z);
@@ -132,8 +130,9 @@ FN Dual opCylinder(Int px, Int py, Int pz, Params P) {
   return fromLocal(c.v, gx, gy, gz, P);
 }
 
-// Parameters: 13 bottom radius, 14 top radius, 15 half height, 16-17 outward normal of the slanted side (radial, y), 18
-// length of the slanted side, 19-20 its unit direction from the bottom rim to the top rim (radial, y).
+// A truncated cone along local y. Parameters: 13 bottom radius, 14 top radius, 15 half height, 16-17 outward normal of
+// the slanted side (radial, y), 18 length of the slanted side, 19-20 its unit direction from the bottom rim to the top
+// rim (radial, y).
 FN Dual opTruncone(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real zero = broadcast(0.0f);
@@ -154,7 +153,8 @@ FN Dual opTruncone(Int px, Int py, Int pz, Params P) {
   PRECISE Real over = radial - rim;
   PRECISE Real cx = maxReal(over, zero);
   PRECISE Real cy = maxReal(cap, zero);
-  // The nearest point of the slanted side: within its length the plain distance counts, beyond it the rim.
+  // Clamps the nearest point to the slanted side. Within the side's length the distance to its plane counts; beyond it,
+  // the distance to the rim.
   PRECISE Real held = clampReal(along, 0.0f, PF(P, 18));
   PRECISE Real past = along - held;
   PRECISE Real slant2 = lengthSquared2(side, past);
@@ -193,8 +193,8 @@ FN Dual opTruncone(Int px, Int py, Int pz, Params P) {
   return fromLocal(v, gx, gy, gz, P);
 }
 
-// A ball that is swept from the centre along a world vector. Parameters: 4-6 vector, 7 reciprocal of its squared length
-// (0 for a sphere), 8 radius. No frame.
+// A capsule: a ball swept from the centre along a world vector. Parameters: 4-6 vector, 7 reciprocal of its squared
+// length (0 for a sphere), 8 radius. No frame.
 FN Dual opCapsule(Int px, Int py, Int pz, Params P) {
   Vec3 d = offsetFrom(px, py, pz, P);
   PRECISE Real h = dotRow(d, PF(P, 4), PF(P, 5), PF(P, 6)) * PF(P, 7);
@@ -215,7 +215,7 @@ FN Dual opCapsule(Int px, Int py, Int pz, Params P) {
   return makeDual(v, ox, oy, oz, broadcastInt(PI(P, 0)));
 }
 
-// Parameters: 13 radius of the ring, 14 radius of the tube. The axis is local y.
+// A torus around local y. Parameters: 13 radius of the ring, 14 radius of the tube.
 FN Dual opTorus(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real s = lengthSquared2(q.x, q.z);
@@ -234,7 +234,7 @@ FN Dual opTorus(Int px, Int py, Int pz, Params P) {
   return fromLocal(v, gx, gy, gz, P);
 }
 
-// Returns (|q / radii| - 1) * smallest radius. Parameters: 13-15 reciprocal radii, 16 smallest radius.
+// An ellipsoid: returns (|q / radii| - 1) * smallest radius. Parameters: 13-15 reciprocal radii, 16 smallest radius.
 FN Dual opEllipsoid(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real ux = q.x * PF(P, 13);
@@ -255,7 +255,8 @@ FN Dual opEllipsoid(Int px, Int py, Int pz, Params P) {
   return fromLocal(v, gx, gy, gz, P);
 }
 
-// Returns (||q / radii||_n - 1) * smallest radius, with a gradient in local axes.
+// Returns (||q / radii||_n - 1) * smallest radius, where ||.||_n is the norm with exponent n; its gradient is in local
+// axes.
 FN Dual superquadricLocal(Vec3 q, Real ix, Real iy, Real iz, Real smallest, Real n) {
   PRECISE Real ux = absReal(q.x) * ix;
   PRECISE Real uy = absReal(q.y) * iy;
@@ -289,15 +290,15 @@ FN Dual superquadricLocal(Vec3 q, Real ix, Real iy, Real iz, Real smallest, Real
   return makeDual(v, gx, gy, gz, broadcastInt(0));
 }
 
-// Parameters: 13-15 reciprocal radii, 16 smallest radius, 17 exponent n >= 2.
+// A superquadric. Parameters: 13-15 reciprocal radii, 16 smallest radius, 17 exponent n >= 2.
 FN Dual opSuperquadric(Int px, Int py, Int pz, Params P) {
   Dual d = superquadricLocal(toLocal(px, py, pz, P), broadcast(PF(P, 13)), broadcast(PF(P, 14)), broadcast(PF(P, 15)),
                              broadcast(PF(P, 16)), broadcast(PF(P, 17)));
   return fromLocal(d.v, d.x, d.y, d.z, P);
 }
 
-// The morph of exponents at t: radii between 13-15 and 16-18; exponent 2 / (1 - t + t * 2 / kMaxPower), where parameter
-// 19 is 2 / kMaxPower.
+// Returns the power morph at t: a superquadric with radii between 13-15 (t = 0) and 16-18 (t = 1), and exponent 2 / (1
+// - t + t * 2 / kMaxPower), where parameter 19 is 2 / kMaxPower.
 FN Dual powerMorphAt(Vec3 q, Real t, Params P) {
   PRECISE Real k = 1.0f - t;
   PRECISE Real ax = k * PF(P, 13);
@@ -315,14 +316,15 @@ FN Dual powerMorphAt(Vec3 q, Real t, Params P) {
   return superquadricLocal(q, recipReal(rx), recipReal(ry), recipReal(rz), minReal(rx, minReal(ry, rz)), n);
 }
 
-// Returns the value, and the part of the gradient due to the position; the part due to t is t's gradient times
+// Returns the value, and the part of the gradient due to the position. The other part is the gradient of t times
 // opPowerMorphSlope.
 FN Dual opPowerMorph(Int px, Int py, Int pz, Dual t, Params P) {
   Dual d = powerMorphAt(toLocal(px, py, pz, P), clampReal(t.v, 0.0f, 1.0f), P);
   return fromLocal(d.v, d.x, d.y, d.z, P);
 }
 
-// Returns df/dt. It has no short closed form, and a difference over 1/64 of the range is exact enough for a normal.
+// Returns df/dt, the derivative of the power morph by t. It has no short closed form; a difference over 1/64 of the
+// range is exact enough for a normal.
 FN Real opPowerMorphSlope(Int px, Int py, Int pz, Dual t, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real before = clampReal(t.v - 0.0078125f, 0.0f, 1.0f);
@@ -345,16 +347,16 @@ FN Dual addSlope(Dual d, Dual t, Real slope) {
   return makeDual(d.v, holdReal(x), holdReal(y), holdReal(z), d.label);
 }
 
-// Solid below the local plane y = 0.
+// A half-space, which is solid below the local plane y = 0.
 FN Dual opHalfspace(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real zero = broadcast(0.0f);
   return fromLocal(q.y, zero, broadcast(1.0f), zero, P);
 }
 
-// A polygon in local xz, counter-clockwise seen from +y, between local y = -h and h. Parameters: 13 half height h, 14
-// number of corners, then for each corner: x, z, the edge to the next corner x, z, and the reciprocals of the edge's
-// squared length and of its length.
+// A prism: a polygon in local x and z, counter-clockwise seen from +y, between local y = -h and h. Parameters: 13 half
+// height h, 14 number of corners, then for each corner: x, z, the edge to the next corner x, z, and the reciprocals of
+// the edge's squared length and of its length.
 FN Dual opPrism(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   int count = PI(P, 14);
@@ -385,7 +387,7 @@ FN Dual opPrism(Int px, Int py, Int pz, Params P) {
     gx = sel(nearer, sel(middle, nx, dx), gx);
     gz = sel(nearer, sel(middle, nz, dz), gz);
     on_edge = (nearer && middle) || (on_edge && !nearer);
-    // Crossing rule for inside or outside: counts edges that span the point's z and pass the point on the side of +x.
+    // Even-odd rule for inside or outside: counts the edges that cross the point's z on the side of +x.
     Real this_z = broadcast(RF(P, at + 1));
     PRECISE Real next_z = this_z + RF(P, at + 3);
     PRECISE Real c = wz * RF(P, at + 2);
@@ -411,7 +413,7 @@ FN Dual opPrism(Int px, Int py, Int pz, Params P) {
   return fromLocal(c.v, hx, hy, hz, P);
 }
 
-// Returns max(0, 1 - x)^3 and its derivative.
+// Returns the kernel max(0, 1 - x)^3 and its derivative.
 FN Corner kernelOf(Real x) {
   PRECISE Real k = 1.0f - x;
   k = maxReal(k, broadcast(0.0f));
@@ -425,8 +427,8 @@ FN Corner kernelOf(Real x) {
   return r;
 }
 
-// Returns the weight of a ball in a sum with a compact kernel, computed without a square root. Parameters: 4 reciprocal
-// of the squared support radius. No frame.
+// Returns the weight of a ball in a sum, by a kernel with compact support, without a square root. Parameters: 4
+// reciprocal of the squared support radius. No frame.
 FN Dual opBlob(Int px, Int py, Int pz, Params P) {
   Vec3 d = offsetFrom(px, py, pz, P);
   PRECISE Real x = lengthSquared3(d) * PF(P, 4);

@@ -1,8 +1,8 @@
 // Elementary functions, computed by + - * and integer operations only. The stated maximum errors are tested.
 
-// If both arguments are zeroes of different signs, it is undefined which one is returned: compilers use one instruction
-// for these functions. The code that follows removes signs of zeroes (unsignedZero).
-// on the CPU, vectors have instructions for these functions, which give the same bits (wide.h)
+// Minimum and maximum. For two zeroes of different signs, it is undefined which one is returned, because compilers use
+// one instruction for these functions. Later code removes the signs of zeroes (unsignedZero). On the CPU, vector
+// instructions replace these functions and give the same bits (wide.h).
 #ifndef SGM_VECTOR_FORMS
 FN Real minReal(Real a, Real b) { return sel(a < b, a, b); }
 FN Real maxReal(Real a, Real b) { return sel(a > b, a, b); }
@@ -11,9 +11,8 @@ FN Real absReal(Real a) { return sel(a < 0.0f, -a, a); }
 FN Real clampReal(Real x, float lo, float hi) { return minReal(maxReal(x, broadcast(lo)), broadcast(hi)); }
 FN Real signOf(Real a) { return sel(a < 0.0f, broadcast(-1.0f), broadcast(1.0f)); }
 
-// Returns 1 / sqrt(x) for normal x > 0, with a relative error below 3e-7 (three Newton steps from an integer first
-// guess).
-// Finite at 0, so that x * rsqrt(x) is 0 there.
+// Returns 1 / sqrt(x) for normal x > 0, with a relative error below 3e-7, by three Newton steps from an integer first
+// guess. The result at 0 is finite, so that x * rsqrt(x) is 0 there.
 FN Real rsqrtReal(Real x) {
   PRECISE Real y = bitsToReal(0x5F375A86u - (realToBits(x) >> 1));
   PRECISE Real h = x * 0.5f;
@@ -38,8 +37,8 @@ FN Real sqrtReal(Real x) {
   return r;
 }
 
-// Returns 1 / x for 2^-120 < x < 2^120, with a relative error below 2e-7. Outside of that range, Newton's steps
-// overflow or yield denormals, and even the sign of the result is meaningless; callers ensure the range (settleReal).
+// Returns 1 / x for 2^-120 < x < 2^120, with a relative error below 2e-7. Outside of this range, Newton's steps
+// overflow or yield denormals, and even the sign of the result may be wrong; callers keep x in the range (settleReal).
 FN Real recipReal(Real x) {
   PRECISE Real y = bitsToReal(0x7EF311C7u - realToBits(x));
   PRECISE Real e = x * y;
@@ -62,10 +61,10 @@ FN Real divideReal(Real a, Real b) {
   return sel(m > 0.0f, r, broadcast(0.0f));
 }
 
-// The results of expressions, including gradients, are clamped to a magnitude of 1e18, and magnitudes below 1e-30
-// become 0. So a product of two results never overflows (and infinity times 0 never yields NaN), no product is a
-// denormal that some devices keep and others flush, and reciprocals stay in their range. Vulkan defines none of these
-// cases.
+// Clamps the results of expressions, including gradients, to a magnitude of 1e18; settleReal also replaces magnitudes
+// below 1e-30 by 0. So a product of two results never overflows (and infinity times 0 never yields NaN), no product is
+// a denormal, which some devices keep and others flush, and reciprocals stay in their range. Vulkan defines none of
+// these cases.
 FN Real holdReal(Real x) { return clampReal(x, -1.0e18f, 1.0e18f); }
 #ifndef SGM_VECTOR_FORMS
 FN Real flushReal(Real x) { return sel((x < -1.0e-30f) || (x > 1.0e-30f), x, broadcast(0.0f)); }
@@ -141,7 +140,7 @@ FN Real powReal(Real a, Real n) {
 }
 
 #ifndef SGM_VECTOR_FORMS
-// Returns p - c, saturated: a half-space or a domain may be farther away than an int32 can represent.
+// Returns p - c, saturated to int32, because a half-space or a domain may be farther away than an int32 can represent.
 FN Int saturatingSub(Int p, Int c) {
   Int d = wrapSub(p, c);
   Bool overflow = ((p ^ c) & (p ^ d)) < 0;
@@ -150,7 +149,7 @@ FN Int saturatingSub(Int p, Int c) {
 }
 #endif
 
-// Returns floor(f * scale + 0.5), clamped to +-2^22 (rule 3).
+// Returns floor(f * scale + 0.5), clamped to +-2^22 (arithmetic contract, rule 3).
 FN Int quantise(Real f, float scale) {
   PRECISE Real q = f * scale;
   q = q + 0.5f;

@@ -1,15 +1,17 @@
-// Evaluates a field program point by point, with all values and attributes; the conformance test compares the results
-// with those of the scalar evaluator, bit by bit. It is simple rather than fast, and interprets the same words as the
-// CPU. Included by field.comp and field_rte.comp, which differ in the rounding mode that they require.
+// Evaluates a field program point by point, with all values and attributes. The conformance test compares the results
+// with those of the scalar evaluator, bit by bit. This shader is simple rather than fast, and interprets the same
+// program words as the CPU. Included by field.comp and field_rte.comp, which differ only in the rounding mode that they
+// require.
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 0) readonly buffer InstrWords { uint instrs[]; };  // three words per Instr of program.h
+layout(std430, binding = 0) readonly buffer InstrWords { uint instrs[]; };  // three words per instruction: struct Instr
+                                                                            // of program.h
 layout(std430, binding = 1) readonly buffer ParamWords { uint params[]; };
-// eleven words per group: see conformance_vulkan.cpp
+// eleven words per group of shapes: see conformance_vulkan.cpp
 layout(std430, binding = 2) readonly buffer GroupWords { uint groups[]; };
 layout(std430, binding = 3) readonly buffer PointWords { int points[]; };   // x, y, z of each point
-// for each point: q, value, gradient, normal x y, label
+// for each point: quantised value, value, gradient, normal x y, label
 layout(std430, binding = 4) buffer ResultWords { uint results[]; };
 
 layout(push_constant) uniform Push {
@@ -22,11 +24,10 @@ layout(push_constant) uniform Push {
 
 Dual registers[kMaxRegisters];
 ivec3 places[kMaxPlaces];
-mat3 jacobians[kMaxPlaces];  // column j contains d place / d sample_j
+mat3 jacobians[kMaxPlaces];  // Jacobian of each warped position: column j contains d place / d sample_j
 
-// Expressions that are `precise` must not read global arrays here: glslang follows `precise` backwards through all
-// assignments to these arrays, which takes forever. Function calls end that search, so all arithmetic is in functions
-// of values.
+// All `precise` arithmetic is in functions of values and must not read global arrays directly: glslang traces `precise`
+// backwards through all assignments to such an array, which takes extremely long. Function calls end this search.
 float alongColumn(Dual d, vec3 column) {
   PRECISE Real a = d.x * column.x;
   PRECISE Real b = d.y * column.y;

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_spirv_intrinsics : require
-// Requires the capability and execution mode RoundingModeRTE for 32 bits (arithmetic contract, rule 6), for devices
-// that have shaderRoundingModeRTEFloat32.
+// Requires rounding to nearest even for 32-bit floats (SPIR-V capability and execution mode RoundingModeRTE; arithmetic
+// contract, rule 6), for devices that have shaderRoundingModeRTEFloat32.
 spirv_execution_mode(capabilities = [4467], 4462, 32);
 #include "conformance/field.glsl"

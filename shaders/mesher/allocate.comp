@@ -1,20 +1,20 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-// Gives each part its place in the output, behind the previous parts; one workgroup. If the buffers are too small for a
-// part, neither that part nor the following ones get a place.
+// Allocates space in the output buffers for each part (body or seam), one after the other, in one workgroup. If a part
+// does not fit, neither that part nor the following ones get space.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"
 #include "mesher/scan.glsl"
 
-const uint kMaxGroups = 65535u;  // the number of workgroups that every device can dispatch
+const uint kMaxGroups = 65535u;  // number of workgroups that every Vulkan device can dispatch
 const uint kGroupCells = 64u;    // number of active cells per workgroup of triangles.comp
 
 shared uint used_vertices, used_indices, used_cells;
 
-// Returns the numbers of vertices, indices and active cells of a part. Seams have no active cells: only a body's
-// kPartMiddle is kNoRoom.
+// Returns the numbers of vertices, indices and active cells that a part needs. Only bodies have active cells; a body is
+// recognised by kPartMiddle = kNoRoom.
 uvec4 wanted(uvec4 counts, uvec4 ends) { return uvec4(counts.xy, ends.w == kNoRoom ? ends.z : 0u, 0u); }
 
 void main() {

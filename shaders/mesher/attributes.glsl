@@ -1,5 +1,5 @@
-// Computes normals, materials and tags. A workgroup processes the vertices of a brick, or those vertices of a seam that
-// are evaluated with the field of one of its two levels. Adds the vertices' share to the part's hash.
+// Computes normals, materials and tags of vertices. A workgroup processes the vertices of one brick, or those vertices
+// of a seam that are evaluated with the field of one of its two levels. Also adds the vertices to the part's hash.
 
 layout(local_size_x_id = 0) in;
 
@@ -16,7 +16,7 @@ layout(local_size_x_id = 0) in;
 float slot_v[kSlots], slot_x[kSlots], slot_y[kSlots], slot_z[kSlots];
 int slot_label[kSlots];
 ivec3 warped[8];
-mat3 jacobians[8];  // column j contains d place / d sample_j
+mat3 jacobians[8];  // Jacobian of each warped position: column j contains d place / d sample_j
 
 Dual readSlot(uint slot) { return makeDual(slot_v[slot], slot_x[slot], slot_y[slot], slot_z[slot], slot_label[slot]); }
 void writeSlot(uint slot, Dual d) {
@@ -27,9 +27,8 @@ void writeSlot(uint slot, Dual d) {
   slot_label[slot] = d.label;
 }
 
-// Expressions that are `precise` must not read global arrays here: glslang follows `precise` backwards through all
-// assignments to these arrays, which takes forever. Function calls end that search, so all arithmetic is in functions
-// of values.
+// All `precise` arithmetic is in functions of values and must not read global arrays directly: glslang traces `precise`
+// backwards through all assignments to such an array, which takes extremely long. Function calls end this search.
 float alongColumn(Dual d, vec3 column) {
   PRECISE Real a = d.x * column.x;
   PRECISE Real b = d.y * column.y;
@@ -56,7 +55,7 @@ vec3 steepened(vec3 column, float x, float y, float z) {
   return vec3(holdReal(a), holdReal(b), holdReal(c));
 }
 
-// Converts a local position in 1/256 of a cell to whole units (mesh/vertex.h).
+// Converts a local coordinate from 1/256 of a cell to whole units (mesh/vertex.h).
 int localUnits(uint at, int cell) { return int(at >> 8) * cell + ((int(at & 255u) * cell + 128) >> 8); }
 
 void main() {
@@ -75,8 +74,8 @@ void main() {
   const uint part_number = brick ? batch[chunk + kChunkPart] : batch[owner + kSeamPart];
   const uint part = kHeadWords + kPartWords * (part_number == kNoRoom ? 0u : part_number);
   const uint first_vertex = parts[part + kPartFirstVertex];
-  // A seam's vertices are those on fine edges, then on coarse edges, then lateral ones. Those on coarse edges belong to
-  // the coarser level.
+  // The order of a seam's vertices: those on fine edges, then those on coarse edges, then lateral ones. Vertices on
+  // coarse edges belong to the coarser level.
   const uint fine = parts[part + kPartCells], middle = parts[part + kPartMiddle];
   const bool coarse = ((number - chunk_count * kBricks) & 1u) == 1u;
   const uint count = unit.z;

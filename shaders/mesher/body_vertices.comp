@@ -3,9 +3,9 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-// Writes the positions of bodies' vertices, and lists for each brick the vertices in it: one workgroup per brick that
-// was sampled. A vertex lies on an edge that begins at a sample of its brick, so the brick's own pruned program is
-// valid at the vertex.
+// Writes the positions of bodies' vertices, and lists the vertices of each brick: one workgroup per brick that was
+// sampled. A vertex lies on an edge that starts at a sample of its brick, so the brick's own pruned program is valid at
+// the vertex.
 
 layout(local_size_x_id = 0) in;
 
@@ -19,7 +19,7 @@ shared uint brick_entries;
 
 uvec2 signsOfRow(uint signs, uint row) { return scratch_pairs[signs / 2u + row]; }
 
-// Returns samples lo to hi of a row, as bits of a word of 32 samples and a word of one sample.
+// Returns a mask of the samples lo to hi of a row: bits of a word for 32 samples, and of a word for the last sample.
 uvec2 samplesOf(uint lo, uint hi) {
   uint upto = hi >= 31u ? 0xFFFFFFFFu : (2u << hi) - 1u;
   return uvec2(upto & ~((1u << lo) - 1u), hi == 32u ? 1u : 0u);

@@ -1,7 +1,7 @@
-// Computes the bounds of a program's records, one box of positions per invocation: definitions of the forms of
-// sweep.glsl (field/prune_kernel.inl). The including file must define the box lo..hi, and the bounds of the field and
-// of what its layers add and remove (field, adds, cuts, add_high, cut_high). MARK and MARK_WHOLE receive the value that
-// decides whether the current record stays, MARK_LAYER the value that decides it within a layer.
+// Computes bounds of the records of a program over boxes of positions, one box per invocation (field/prune_kernel.inl).
+// This file defines the forms that sweep.glsl expands. The including file must define the box lo..hi, and the bounds of
+// the field and of what its layers add and cut (field, adds, cuts, add_high, cut_high). The macros MARK and MARK_WHOLE
+// receive the value that decides whether the current record stays, MARK_LAYER the values that decide it within a layer.
 
 const float kNever = 3.0e38f;
 const uint kMaxLayers = 64u;
@@ -15,7 +15,7 @@ void setSlot(uint slot, Bounds b) {
   high[slot] = b.hi;
 }
 
-// Same as addend() of addend.glsl, for bounds.
+// Returns bounds of the value that an instruction adds to a sum: addend() of addend.glsl for bounds.
 Bounds addendBounds(Bounds a, Bounds b, uint P) {
   if ((kKindsHigh & kSomeMorphs) != 0u) {
     const Bounds by = makeBounds(PF(P, kByWord), PF(P, kByWord));
@@ -32,7 +32,7 @@ Bounds addendBounds(Bounds a, Bounds b, uint P) {
 #define BOX makeBox(place_low[place], place_high[place])
 #define SIZES uintBitsToFloat(wordOfRecord(30u))
 #define MIDDLE_OF(axis) middleOf(place_low[place].axis, place_high[place].axis)
-#define SAMPLES makeBounds(PF(P, 11), PF(P, 12))  // range of a lattice's samples
+#define SAMPLES makeBounds(PF(P, 11), PF(P, 12))  // range of the samples of a lattice
 #define OPERANDS(a, b, c) setSlot(dst, operandBounds(number, a, b, c, PF(P, 0), PF(P, 1)));
 #define NONE makeBounds(0.0f, 0.0f)
 #define FORM_CONSTANT(F) OPERANDS(NONE, NONE, NONE)
@@ -145,8 +145,8 @@ Bounds addendBounds(Bounds a, Bounds b, uint P) {
       cut_high = kNever;                                                      \
     }                                                                         \
   }
-// If a smooth group is at least its width away and not nearer than the field, the field keeps its bits. If that holds
-// for the field instead, the group replaces it.
+// A smooth union blends over a width k. If the group's value is at least k, and not less than the field, the field
+// keeps its bits. If the same holds with field and group exchanged, the group replaces the field.
 #define FORM_SMOOTH                                                                                   \
   {                                                                                                   \
     GROUP                                                                                             \

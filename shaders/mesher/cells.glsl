@@ -1,14 +1,14 @@
-// An active cell as list_cells.comp passes it to triangles.comp: its case, and the data from which the numbers of its
-// vertices are computed. Rows are the four rows of samples that the cell touches, y + 2 z. For each row: the number of
-// the first vertex on an edge that starts at sample x or a later one; and which edges start at samples x (bits 0..2)
-// and x + 1 (bits 3..5). A body has fewer than 2^17 vertices and 2^19 indices, and at most 99 vertices between a sample
-// and the one above.
+// An active cell (one that the surface crosses), as list_cells.comp passes it to triangles.comp: its case, and data to
+// compute the numbers of its vertices. A cell touches four rows of samples, with index y + 2 z. For each row it has:
+// the number of the first vertex on an edge that starts at sample x or a later one; and which edges from samples x
+// (bits 0..2) and x + 1 (bits 3..5) are crossed. A body has fewer than 2^17 vertices and 2^19 indices, and the
+// numbers of the first vertices at a sample and at the next sample in y differ by at most 99.
 
 struct ActiveCell {
   uint cell_case;
-  uvec4 first; // by row: number of the first vertex
-  uvec3 owned; // by row: crossed edges of two samples; of row 3, a cell uses only the x-edge of sample x
-  uint index;   // number of its first index in the part
+  uvec4 first; // for each row: number of the first vertex
+  uvec3 owned; // for each row: crossed edges of two samples; of row 3, a cell uses only the x-edge of sample x
+  uint index;   // position of the cell's first index in the part
   uint part;
 };
 

@@ -1,23 +1,23 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-// Counts the output of a chunk's body from signs alone: one workgroup per chunk, one invocation per run of rows. An
-// invocation processes its rows twice: first for their total, then for the counts before each row.
+// Counts the vertices, indices and active cells of a chunk's body from the samples' signs: one workgroup per chunk, one
+// invocation per run of rows. An invocation processes its rows twice: first to count them all, then to store the counts
+// before each row.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/edges.glsl"
 #include "mesher/scan.glsl"
 
-const uint kPairs = 545u;       // number of pairs of rows
-const uint kPairsInRun = 9u;    // 64 runs of this length contain all pairs
-const uint kPairsToPlane = 16u; // distance from a pair to the pair of the next plane, 32 or 33 rows later
+const uint kPairs = 545u;       // number of pairs of rows in a chunk
+const uint kPairsInRun = 9u;    // pairs of rows per invocation; 64 runs of this length contain all pairs
+const uint kPairsToPlane = 16u; // distance from a pair of rows to the pair in the next plane, 32 or 33 rows later
 
-// Returns the number of triangles of a row of cells between the sample rows a, b (next in y), c (next in z) and d (next
-// in both), for 32 cells at once.
-//
-// E cut edges in L loops make E - 2 L triangles. If n corners are solid, and e edges and f faces lie wholly in the
-// solid, E is 3 n - 2 e and, by Euler's formula, L is n - e + f: together n - 2 f. Two cases differ: a ring around two
-// opposite void corners has two loops more than the formula, and the solid cube two less.
+// Returns the number of triangles in a row of cells, for 32 cells at once. The cells lie between the rows of samples a,
+// b (next in y), c (next in z) and d (next in both). If a cell has E crossed edges in L loops, it has E - 2 L
+// triangles. If n corners are solid, and e edges and f faces lie completely in the solid, E is 3 n - 2 e and, by
+// Euler's formula, L is n - e + f; so the number is n - 2 f. Two cases differ: a ring around two opposite void corners
+// has two loops more than the formula, and the solid cube two less.
 uint trianglesOf(uint a, uint b, uint c, uint d, uint a1, uint b1, uint c1, uint d1) {
   uint low = a & b & c & d, high = a1 & b1 & c1 & d1;
   uint corners = bitCount(a) + bitCount(b) + bitCount(c) + bitCount(d) + bitCount(a1) + bitCount(b1) + bitCount(c1) +
@@ -30,7 +30,7 @@ uint trianglesOf(uint a, uint b, uint c, uint d, uint a1, uint b1, uint c1, uint
 }
 
 struct Row {
-  uvec4 counts;  // numbers of vertices, indices, active cells; 1 if there are active cells
+  uvec4 counts;  // numbers of vertices, indices and active cells; w: 1 if there are active cells
   uint live;
 };
 
@@ -45,7 +45,7 @@ Row countRow(uint r, uvec2 a, uvec2 b, uvec2 c, uvec2 d) {
   return Row(uvec4(vertex_count, 3u * triangles, bitCount(live), min(live, 1u)), live);
 }
 
-// Returns the signs of two rows; beyond the last row they are not used.
+// Returns the signs of two rows. Beyond the last row the result is not used.
 uvec4 signPair(uint signs, uint pair) { return scratch_fours[signs / 4u + min(pair, kPairs - 1u)]; }
 
 void writeRow(uint rows, uint r, Row row, inout uvec4 before) {
@@ -54,7 +54,7 @@ void writeRow(uint rows, uint r, Row row, inout uvec4 before) {
   before += row.counts;
 }
 
-// Processes the rows of a run, and adds their counts to `before`; if `write`, stores the counts before each row.
+// Processes a run of rows, and adds their counts to `before`. If `write` is true, stores the counts before each row.
 void walk(uint signs, uint rows, uint first, bool write, inout uvec4 before) {
   uvec4 here = signPair(signs, first), there = signPair(signs, first + kPairsToPlane);
   uint pair = first;

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-// Counts the output of a seam from signs alone: one workgroup per seam. Stores the plane of the chunk's signs for later
-// kernels.
+// Counts the vertices and triangles of a seam from the samples' signs: one workgroup per seam. Also stores the signs of
+// the chunk's own samples on the face, for later kernels.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"
@@ -11,9 +11,9 @@ layout(local_size_x = 64) in;
 #include "mesher/scan.glsl"
 #include "mesher/case_layout.h"
 
-const uint kCellsOfOne = 4u;  // number of neighbouring cells along a for each invocation
+const uint kCellsOfOne = 4u;  // number of adjacent cells along axis a that one invocation processes
 
-shared uvec2 fine[kSide + 1u];         // one more row, whose edges are not used
+shared uvec2 fine[kSide + 1u];         // signs of the fine rows, and one more row, whose edges are not used
 shared uint coarse[kCoarseSide + 1u];
 
 uvec2 rowOfPlane(Plane plane, uint signs, uint b) {
@@ -40,7 +40,8 @@ void main() {
   if (i < kCoarseSide) coarse[i] = scratch[batch[record + kSeamSigns] + i];
   barrier();
 
-  // numbers of vertices of the fine, coarse and lateral row; number of triangles and, from bit 16 on, of active cells
+  // numbers of vertices of the fine, the coarse and the lateral row; w: number of triangles and, from bit 16 on, of
+  // active cells
   uvec4 own = uvec4(0u), before, sum;
   if (i < kSide) own.x = verticesOf(fineEdges(fine[i], fine[i + 1u], i));
   if (i < kCoarseSide) {

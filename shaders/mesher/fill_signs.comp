@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Writes the signs of boxes that are proven uniform, and zeroes for all others: one workgroup per chunk, then one per
-// seam.
+// Fills the signs of a chunk before sampling: one workgroup per chunk, then one per seam. Boxes that are proven uniform
+// get their sign; all others get zeroes.
 
 layout(local_size_x_id = 0) in;
 

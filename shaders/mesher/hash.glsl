@@ -1,4 +1,4 @@
-// The content hash (mesh/hash.h): a sum over words, in any order.
+// The content hash of a mesh (mesh/hash.h): a sum over its words, so that words may be added in any order.
 
 uvec2 hashWord(uint word, uint place) {
   uint h = word ^ (place * 0x9E3779B9u + 0x85EBCA6Bu);
@@ -10,7 +10,7 @@ uvec2 hashWord(uint word, uint place) {
   return uvec2(h, h * (2u * place + 1u));
 }
 
-// `number`: index of the vertex in its part.
+// Returns the hash of a vertex. number: index of the vertex in its part.
 uvec2 hashVertex(uvec4 vertex, uint number) {
   uint place = 4u * number;
   return hashWord(vertex.x, place) + hashWord(vertex.y, place + 1u) + hashWord(vertex.z, place + 2u) +
@@ -19,8 +19,8 @@ uvec2 hashVertex(uvec4 vertex, uint number) {
 
 uvec2 hashIndex(uint index, uint number) { return hashWord(index, 0x80000000u + number); }
 
-// Adds to the hashes of parts, with one pair of atomic operations per part and subgroup, regardless of which invocation
-// has which part. Must be called in uniform control flow. part = kNoRoom: the invocation has nothing to add.
+// Adds the shares of all invocations to the hashes of their parts, with one pair of atomic operations per part and
+// subgroup. Must be called in uniform control flow. part = kNoRoom: this invocation has nothing to add.
 void addHash(uint part, uvec2 share) {
   uint left = part;
   do {

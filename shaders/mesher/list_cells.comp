@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Lists the active cells of all bodies for which there is memory: one workgroup per chunk, one invocation per row that
+// Lists the active cells of all bodies that fit into the buffers: one workgroup per chunk, one invocation per row that
 // has active cells.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 #include "mesher/edges.glsl"
 #include "mesher/cells.glsl"
 
-// Returns the number of triangles of a case (see census_body.comp).
+// Returns the number of triangles of a marching-cubes case (see census_body.comp).
 uint trianglesOf(uint cell_case) {
   const uint kFaces[6] = uint[](0x55u, 0xAAu, 0x33u, 0xCCu, 0x0Fu, 0xF0u);
   uint count = bitCount(cell_case) + (cell_case == 0xFFu ? 4u : 0u);
@@ -17,7 +17,7 @@ uint trianglesOf(uint cell_case) {
   return hollow == 0x81u || hollow == 0x42u || hollow == 0x24u || hollow == 0x18u ? count - 4u : count;
 }
 
-// Reads the signs of three rows from row r on; beyond the chunk their content does not matter.
+// Reads the signs of three rows, starting with row r. Beyond the chunk the result is not used.
 void readRows(uint signs, uint r, out uvec2 a, out uvec2 b, out uvec2 c) {
   uint pair = signs / 4u + min(r, kRows - 2u) / 2u;
   uvec4 low = scratch_fours[pair], high = scratch_fours[pair + 1u];

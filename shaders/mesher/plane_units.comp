@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Makes the units of attributes of all seams for which there is memory: one invocation per plane. Vertices on fine
-// edges and lateral ones are evaluated with the chunk's own field, all others with the coarser level's.
+// Creates the units of attributes for all seams that fit into the buffers: one invocation per plane. Vertices on fine
+// edges and lateral vertices are evaluated with the chunk's own field, all others with the coarser level's.
 
 layout(local_size_x_id = 0) in;
 

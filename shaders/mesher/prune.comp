@@ -3,9 +3,9 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
-// Prunes a program to each of up to 64 boxes, one per invocation. field/prune.h explains the method, and why no sample
-// in the box changes a bit. A forward pass computes the bounds of all records; a backward pass writes the list of those
-// that stay, from its end.
+// Prunes a field program to up to 64 boxes, one per invocation. field/prune.h explains the method, and why pruning does
+// not change any bit of a sample in the box. A forward pass computes the bounds of all records. A backward pass then
+// writes the list of those that stay, starting at its end.
 
 layout(local_size_x_id = 0) in;
 
@@ -21,10 +21,10 @@ layout(local_size_x_id = 0) in;
 const uint kEndOfWindow = 0xFFu;
 const uint kMaxRecords = 1024u;
 
-float mark[kMaxRecords];   // the value that decides whether a record stays
+float mark[kMaxRecords];   // for each record: the value that decides whether it stays
 float whole_mark[kMaxRecords];
 float layer_add[64], layer_cut[64], layer_joined[64], layer_replaced[64];
-float nearest_high[64];     // by slot: upper bound of the nearest operand of a round union
+float nearest_high[64];     // for each slot: upper bound of the nearest operand of a round union
 
 #define MARK(value) mark[record_number] = value;
 #define MARK_WHOLE(value) whole_mark[record_number] = value;
@@ -35,13 +35,15 @@ float nearest_high[64];     // by slot: upper bound of the nearest operand of a 
   layer_replaced[layer] = replaces ? 1.0f : 0.0f;
 #include "mesher/bound_forms.glsl"
 
-// The far slot has no bit: it needs no record that makes it.
+// Returns the bit of a slot in a mask. The last slot (kFarSlot), which contains a constant far value, has no bit,
+// because no record computes it.
 uvec2 bitOf(uint slot) {
   const uint bit = 1u << (slot & 31u);
   return uvec2(slot < 32u ? bit : 0u, slot >= 32u && slot < kFarSlot ? bit : 0u);
 }
 
-// Reads records from..end of the program into the window; returns the first record for which it had no space.
+// Reads the records from..end of the program into the window, as far as they fit; returns the first record that did not
+// fit.
 uint fillWindow(uint headers, uint from, uint end) {
   const uint lane = gl_SubgroupInvocationID & 7u;
   uint filled = 0u, at = from, base = from, piece = 0u;
@@ -79,8 +81,8 @@ void main() {
   const float scale = uintBitsToFloat(batch[job + kJobScale]);
   const float initial = uintBitsToFloat(batch[job + kJobInitial]);
 
-  // Bricks are bounded together with one more sample on each side, so if a brick is uniform, no edge that leaves it
-  // changes sign.
+  // The box of a brick is extended by one sample on each side. So if a brick is uniform, no edge that leaves it changes
+  // sign.
   ivec3 lo = origin + max(ivec3(firstOfBrick(which)) - 1, ivec3(0)) * cell;
   ivec3 hi = origin + min(ivec3(lastOfBrick(which)) + 1, ivec3(32)) * cell;
   if (!bricks) {
@@ -109,9 +111,9 @@ void main() {
   const bool solid = field.hi * scale < -0.55f, empty = field.lo * scale > -0.45f;
   const uint list_end = batch[job + kJobLists] + (which + 1u) * records;
   uint begin = list_end;
-  uvec2 live = uvec2(0u);  // slots whose values are needed
+  uvec2 live = uvec2(0u);  // mask of the slots whose values are needed
   uint live_places = 0u;
-  // true if a layer was found that covers everything: the layers below it have no effect
+  // true if a layer replaces everything: then the layers below it have no effect
   bool below = false, replaced = false;
   float limit_add = 0.0f, limit_cut = 0.0f, limit_joined = 0.0f;
   const bool listed = used && (!bricks || !(solid || empty));
@@ -163,7 +165,7 @@ void main() {
         replaced = keep && uint(w) >= 2u;
       }
 
-      // The value that the record makes is not needed before it, but its operands are.
+      // Before this record, the slot that it writes is not needed, but its operands are.
       if (keep && is_op && (traits & (kAddsTo | kMakesPlace)) == 0u) {
         live &= ~made;
         if ((traits & kBeginsTwo) != 0u) live &= ~second;
@@ -191,13 +193,14 @@ void main() {
     scratch[item + kItemList] = begin;
     scratch[item + kItemCount] = list_end - begin;
     scratch[item + kItemFlags] = (solid ? kItemSolid : 0u) | (empty ? kItemEmpty : 0u);
-    // The layers below the last layer that covers everything are hidden by it.
+    // If a layer replaces everything below it, the field starts with a far value instead of the domain's initial value.
     scratch[item + kItemInitial] = below || replaced ? floatBitsToUint(1.0e30f) : batch[job + kJobInitial];
     scratch[item + kItemLabel] = below || replaced ? 0u : batch[job + kJobLabel];
     scratch[item + kItemScale] = batch[job + kJobScale];
     scratch[item + kItemOwner] = bricks ? chunk : seam;
-    scratch[item + kItemParts] = (solid ? 0xFFu : 0u) | (empty ? 0xFF00u : 0u);  // for an item that is not sampled
-    // If only seams are requested, only bricks at their faces are sampled.
+    // refine.comp replaces this for items that are sampled
+    scratch[item + kItemParts] = (solid ? 0xFFu : 0u) | (empty ? 0xFF00u : 0u);
+    // If only seams are requested, only the bricks at the seams' faces are sampled.
     const uint faces = batch[chunk + kChunkFaces];
     const uvec3 at_low = uvec3(equal(firstOfBrick(which), uvec3(0u))), at_high = uvec3(equal(lastOfBrick(which), uvec3(32u)));
     const uint touched = at_low.x | at_high.x << 1 | at_low.y << 2 | at_high.y << 3 | at_low.z << 4 | at_high.z << 5;

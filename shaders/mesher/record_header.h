@@ -1,29 +1,31 @@
-// The meaning of the headers and records of a tape, for GLSL and C++ (backend/vulkan/tape.cpp).
+// The meaning of the headers and records of a tape (a field program for shaders), for GLSL and C++
+// (backend/vulkan/tape.cpp).
 
-// A record's header is one vector: the record's first two words, its offset in units of 32 words, and the following
+// The header of a record is one vector: the first two words of the record, its offset in units of 32 words, and these
 // flags.
-const uint kOperands = 3u;        // bits 0, 1: index of its last operand
+const uint kOperands = 3u;  // bits 0, 1: number of operands, up to the last one that the record reads
 const uint kReadsPosition = 4u;
-const uint kBeginsTwo = 8u;       // it makes two values
-const uint kAddsTo = 16u;         // it adds to two values
+const uint kBeginsTwo = 8u;  // the record initialises two values
+const uint kAddsTo = 16u;    // the record adds to two values
 const uint kEndsRound = 32u;
 const uint kMakesPlace = 64u;
-const uint kChooses = 128u;       // pruning may reduce it to one of its first two operands
+const uint kChooses = 128u;  // pruning may reduce the record to one of its first two operands
 const uint kAddsRound = 256u;
-const uint kCuts = 512u;          // of a fold: it joins the cuts; of a layer's end: the layer has cuts
+const uint kCuts = 512u;  // for a fold, which joins a group of shapes to its layer: the group is cut from the
+                          // layer; for the end of a layer: the layer has cuts
 const uint kIsFold = 1024u;
 const uint kIsSmooth = 2048u;
 const uint kIsLayerEnd = 4096u;
 
-// Words for additional parameters of a mix, a morph, or what is added to a sum; these ops have fewer parameters of
-// their own.
-const uint kByWord = 2u;   // the constant parameter of a mix or a morph, or of the morph that is added to a sum
-const uint kHowWord = 3u;  // the word with these bits:
-const uint kHowByConstant = 1u;  // of a mix or a morph: the parameter is kByWord, not the third operand
-const uint kHowMorphs = 2u;      // of a sum: it adds the morph of its first and third operand
-const uint kHowWeighs = 4u;      // of a sum: what it adds is weighted by a kernel
+// Words for additional parameters of a mix, a morph, or the value that is added to a sum. These ops have few parameters
+// of their own, so the words are free.
+const uint kByWord = 2u;         // constant parameter t of a mix or a morph, or of the morph that is added to a sum
+const uint kHowWord = 3u;        // word that contains these bits:
+const uint kHowByConstant = 1u;  // for a mix or a morph: t is kByWord, not the third operand
+const uint kHowMorphs = 2u;      // for a sum: adds the morph of its first and third operand
+const uint kHowWeighs = 4u;      // for a sum: the value that is added is weighted by a kernel
 
-// Flags in the upper word of the kinds of instructions in a tape.
-const uint kSomeReadsThird = 0x80000000u;  // a mix or a morph has an operand as its parameter
-const uint kSomeMorphs = 0x40000000u;      // a sum adds morphs
-const uint kSomeWeighs = 0x20000000u;      // a sum weighs what it adds by a kernel
+// Flags for a whole tape: which variants of instructions occur. They are stored in the upper word of the mask of kinds.
+const uint kSomeReadsThird = 0x80000000u;  // a mix or a morph takes its parameter t from an operand
+const uint kSomeMorphs = 0x40000000u;      // a sum adds a morph
+const uint kSomeWeighs = 0x20000000u;      // a sum weights the value that is added by a kernel

@@ -4,8 +4,8 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
-// Finds which of the eight parts of a brick that will be sampled are uniform: one invocation per part, one workgroup
-// per brick. About half of the parts are uniform, and need no samples.
+// Finds out which of the eight parts of a brick that will be sampled are uniform: one invocation per part, one
+// workgroup per brick. About half of the parts are uniform, and need no samples.
 
 layout(local_size_x_id = 0) in;
 
@@ -29,7 +29,7 @@ void main() {
   const uint number = itemOfEntry(entry);
   const uint item = items_at + kItemWords * number;
   const bool brick = number < chunk_count * kBricks;
-  // A brick may be listed several times, once per slice: only its first slice tests its parts.
+  // A brick may be listed several times, once per slice, so only the entry of its first slice tests its parts.
   const bool asked = brick && sliceOfEntry(entry) == 0u;
   const uint list = scratch[item + kItemList], list_end = list + (asked ? scratch[item + kItemCount] : 0u);
   const float scale = uintBitsToFloat(scratch[item + kItemScale]);
@@ -41,7 +41,7 @@ void main() {
       ivec3(batch[chunk + kChunkOrigin], batch[chunk + kChunkOrigin + 1u], batch[chunk + kChunkOrigin + 2u]);
   const uint which = gl_LocalInvocationID.x & 7u;
   const ivec3 first = ivec3(firstOfPart(number % kBricks, which)), last = ivec3(lastOfPart(number % kBricks, which));
-  // Same as for bricks: bounded together with one more sample on each side.
+  // As for bricks, the box is extended by one sample on each side.
   const ivec3 lo = origin + max(first - 1, ivec3(0)) * cell, hi = origin + min(last + 1, ivec3(32)) * cell;
   setSlot(kFarSlot, makeBounds(kMaxBound, kMaxBound));
   place_low[0] = lo;

@@ -4,5 +4,6 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
-// For devices on which a shader cannot require a rounding mode: they round to nearest, or are reported as not exact.
+// Requires no rounding mode, for devices on which a shader cannot require one: they round to nearest, or are reported
+// as not exact.
 #include "mesher/sample.glsl"

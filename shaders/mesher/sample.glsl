@@ -1,5 +1,5 @@
-// Computes the samples and signs of one item per workgroup: a brick that is not proven uniform, or the coarse plane of
-// a seam.
+// Computes the samples and signs of one item per workgroup: of a brick that is not proven uniform, or of the coarse
+// plane of a seam.
 
 layout(local_size_x_id = 0) in;
 
@@ -12,7 +12,7 @@ layout(local_size_x_id = 0) in;
 #include "common/common.h"
 #include "mesher/addend.glsl"
 
-const uint kEach = 4u;  // number of samples that an invocation evaluates together
+const uint kEach = 4u;  // number of samples that one invocation evaluates together
 
 float slots[kSlots * kEach];
 ivec3 warped[7u * kEach];
@@ -46,7 +46,7 @@ void main() {
   const uint signs = plane ? batch[owner + kSeamSigns] : batch[chunk + kChunkSigns];
   const uint face = plane ? batch[owner + kSeamFace] : 0u;
   const uint axis = face >> 1;
-  // Mask of the parts of a brick that are uniform, and need no samples; a plane is one part.
+  // mask of the brick's parts that are uniform and need no samples; a plane is a single part
   const uint uniform_parts = scratch[item + kItemParts];
   uint left = plane ? 1u : ~(uniform_parts | uniform_parts >> 8) & 0xFFu;
 
@@ -58,7 +58,7 @@ void main() {
     const uvec3 first = firstOfPart(number % kBricks, part);
     const uvec3 extent = lastOfPart(number % kBricks, part) - first + 1u;
     const uint count = plane ? kCoarseSide * kCoarseSide : extent.x * extent.y * extent.z;
-    // 65536 / 4 or / 5, rounded up: the product's upper bits are the quotient
+    // 65536 / 4 or 65536 / 5, rounded up: multiplication by it and a shift by 16 bits replace a division
     const uvec3 inverse = mix(uvec3(13108u), uvec3(16384u), equal(extent, uvec3(4u)));
     int px[kEach], py[kEach], pz[kEach];
     float field[kEach], cuts[kEach];
@@ -71,7 +71,7 @@ void main() {
       i = min(i, count - 1u);
       const uint row = i * inverse.x >> 16, z = row * inverse.y >> 16;
       uvec3 at = first + uvec3(i - row * extent.x, row - z * extent.y, z);
-      uint b = i * 3856u >> 16, a = i - b * kCoarseSide;  // division by 17; exact for 289 samples
+      uint b = i * 3856u >> 16, a = i - b * kCoarseSide;  // i * 3856 >> 16 divides by 17, exactly for the 289 samples
       ivec3 on_plane = ivec3(0);
       on_plane[axis] = (face & 1u) != 0u ? 32 : 0;
       on_plane[(axis + 1u) % 3u] = int(2u * a);
@@ -102,7 +102,7 @@ void main() {
 #define READ(r) valueOf(SLOT(r))
 #define FORM_CONSTANT(F) EACH(SLOT(dst) = F(P).v;)
 #define FORM_POSITION(F) EACH(SLOT(dst) = opMinimum(READ(ra), F(PX, PY, PZ, P)).v;)
-// The octaves of noise are a loop already, which uses the processor well, so samples are evaluated one by one.
+// Noise is evaluated for one sample at a time, because its loop over octaves already uses the processor well.
 #define OF_SAMPLE(p) (s == 0u ? p[0] : s == 1u ? p[1] : s == 2u ? p[2] : p[3])
 #define FORM_NOISE(F)                                                                                  \
   uint s = 0u;                                                                                         \
@@ -128,7 +128,7 @@ void main() {
   EACH(Dual d = READ(ra); SLOT(dst) = opMinimum(READ(dst), d).v;    \
        SLOT(rb) = roundAccumulate(READ(rb), d, PF(P, 0)).v;)
 #define FORM_ROUND_END(F) EACH(SLOT(dst) = opRoundEnd(READ(ra), READ(rb), P).v;)
-// The operand with the largest weight only determines a label, which samples do not need.
+// The operand with the largest weight is not tracked, because it only determines the label, which samples do not need.
 #define FORM_SUM_BEGIN(F) EACH(SLOT(rb) = nothing().v;)
 #define FORM_SUM_ADD(F) EACH(SLOT(rb) = opAdd(READ(rb), addend(READ(ra), READ(rc), P)).v;)
 #define FORM_SUM_END(F) EACH(SLOT(dst) = opSumEnd(nothing(), READ(rb), P).v;)
@@ -159,7 +159,7 @@ void main() {
       int q = quantise(field[s], scale);
       bool solid = inside[s] && q < 0;
       if (inside[s]) scratch[target[s]] = uint(q);
-      // If rows have four samples, four successive invocations share a row.
+      // If rows have four samples, four successive invocations write the signs of one row together.
       const bool alone = plane || extent.x != 4u;
       const uint lane = gl_SubgroupInvocationID;
       const uvec4 ballot = subgroupBallot(solid);

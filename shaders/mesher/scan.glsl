@@ -1,12 +1,12 @@
-// Prefix sums over a workgroup of 64 invocations. Subgroups must be full, and the workgroup have one dimension.
+// Prefix sums over a workgroup of 64 invocations. Subgroups must be full, and the workgroup must be one-dimensional.
 
 shared uvec4 scan_sums[64];
 
-// Returns the invocation's position among the 64: the order in which scanWorkgroup adds.
+// Returns the index of the invocation, 0..63, in the order in which scanWorkgroup adds.
 uint placeInWorkgroup() { return gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID; }
 
-// Returns the sum over the invocations before this one, and the sum over all. Must be called once, in uniform control
-// flow.
+// Returns the sum over the invocations before this one (`before`), and the sum over all (`all`). Must be called once,
+// in uniform control flow.
 void scanWorkgroup(uvec4 own, out uvec4 before, out uvec4 all) {
   before = subgroupExclusiveAdd(own);
   if (gl_SubgroupInvocationID == gl_SubgroupSize - 1u) scan_sums[gl_SubgroupID] = before + own;

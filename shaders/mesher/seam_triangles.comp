@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
-// Writes the triangles of all seams for which there is memory: one workgroup per seam, one invocation per active cell.
-// Runs after the vertices have their positions. Loops have up to 12 points and are triangulated as by
-// triangulateFlatLoop (mesh/triangulate_any.h).
+// Writes the triangles of all seams that fit into the buffers: one workgroup per seam, one invocation per active cell.
+// Requires that the positions of vertices are written. Loops have up to 12 points and are triangulated in the same way
+// as by triangulateFlatLoop (mesh/triangulate_any.h).
 layout(local_size_x = 32) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"
@@ -22,17 +22,17 @@ struct Seam {
   uint first_vertex, first_index;
 };
 
-// Returns the number of the first vertex on an edge that starts at sample `a` of a row or a later one; and the edges
-// that start at samples a to a + 2, three bits each.
+// Returns, for a row, the number of the first vertex on an edge that starts at sample `a` or a later one; and the
+// crossed edges that start at samples a to a + 2, three bits each.
 uvec2 numbersFrom(RowEdges e, uint start, uint a) {
   return uvec2(start + verticesBefore(e, a),
                ownedEdges(e, a) | ownedEdges(e, a + 1u) << 3 | (a + 2u <= kCells ? ownedEdges(e, a + 2u) << 6 : 0u));
 }
 
-// The numbers of the vertices on a cell's edges (numbered as in mesh/tables.h).
+// The numbers of the vertices on a cell's edges. Edges are numbered as in mesh/tables.h.
 uint number[kEdges];
 
-// Fills `number` for the cell at (a, b); returns the cell's case.
+// Fills `number` for the cell at (a, b), and returns the cell's case.
 uint numberEdges(Seam seam, uint a, uint b) {
   uint fine = (seam.counts + kSeamPlane) / 2u + 2u * b, signs = batch[seam.record + kSeamSigns] + b;
   uvec2 f0 = scratch_pairs[fine], f1 = scratch_pairs[fine + 1u];

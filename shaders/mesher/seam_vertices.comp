@@ -1,24 +1,24 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Writes the positions and kinds of the vertices of all seams for which there is memory: one workgroup per seam, one
-// invocation per row. Attributes stay 0.
+// Writes the positions and kinds of the vertices of all seams that fit into the buffers: one workgroup per seam, one
+// invocation per row. Attributes are left 0.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"
 #include "mesher/edges.glsl"
 #include "mesher/face.glsl"
 
-const uint kSeamRows = 67u;  // rows of the fine, the coarse and the lateral vertices
+const uint kSeamRows = 67u;  // number of rows: fine, coarse and lateral ones together
 
-const uint kOwnEdge = 0u;  // VertexKind, in mesh/chunk.h
+const uint kOwnEdge = 0u;  // values of VertexKind (mesh/chunk.h)
 const uint kCoarserEdge = 1u;
 const uint kLateralEdge = 2u;
 
 struct Row {
   uint b, kind;
-  uvec2 along_u, along_v;  // crossed edges along u and v
-  uint samples;            // index in scratch of the sample at a = 0
-  uint step_u, step_v;     // distances in scratch of neighbours along u and v
+  uvec2 along_u, along_v;  // masks of the crossed edges along u and v
+  uint samples;            // index in `scratch` of the row's first sample (a = 0)
+  uint step_u, step_v;     // distances in `scratch` between neighbours along u and v
 };
 
 Row fineRow(uint chunk, uint face, uint counts, uint b) {

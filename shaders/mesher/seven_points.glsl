@@ -1,9 +1,10 @@
-// Triangulates a loop of at most seven points as defined in mesh/triangulate.h, by dynamic programming over chords,
-// without branches and memory accesses. What lies beyond the loop's n points is computed, but not used.
+// Triangulates a loop of at most seven points in the way that mesh/triangulate.h defines: by dynamic programming over
+// chords, without branches and memory accesses. Values beyond the loop's n points are computed, but not used.
 
 const uint kPoints = 7u;
 
-// Packs a vertex's position into one word, modulo 1024 on each axis: the points of a cell are at most 256 apart.
+// Packs a vertex's position into one word, modulo 1024 on each axis. This suffices, because the points of a cell are at
+// most 256 apart.
 uint packPlace(uvec2 vertex) {
   return (vertex.x & 0x3FFu) | (vertex.x >> 6 & 0xFFC00u) | (vertex.y & 0x3FFu) << 20;
 }
@@ -16,8 +17,8 @@ int norm(ivec3 v) {
   return a.x + a.y + a.z;
 }
 
-// The piece of the loop between two points: its largest possible smallest triangle, -1 if the chord is forbidden; and
-// the apexes of its triangles in pre-order, three bits each.
+// The best triangulation of the part of a loop between two points: the size of its smallest triangle, as large as
+// possible (-1 if the chord is forbidden); and the apexes of its triangles in pre-order, three bits each.
 struct Piece {
   int best;
   uint apexes;
@@ -34,16 +35,16 @@ void forbid(inout Piece piece, uint forbidden, uint i, uint j) {
   if ((forbidden >> (i + (j - 1u) * (j - 2u) / 2u) & 1u) != 0u) piece.best = -1;
 }
 
-// Positions of the loop's points. A global, because an array argument would be copied element by element.
+// Positions of the loop's points. Global, because an array argument would be copied element by element.
 uint place[kPoints];
 
-// Returns the apexes of the triangles of a loop of n points. forbidden: one bit per chord (case_layout.h).
+// Returns the apexes of the triangles of a loop of n points. forbidden: a mask with one bit per chord (case_layout.h).
 uint chooseApexes(uint n, uint forbidden) {
   const Piece side = Piece(0x7FFFFFFF, 0u), none = Piece(-1, 0u);
   uvec3 origin = highBits(place[0]);
-  ivec3 p[kPoints];  // all indices are constants, so these arrays are in registers
+  ivec3 p[kPoints];  // all array indices are constants, so the compiler keeps these arrays in registers
   Piece piece[kPoints * kPoints];
-  // twice the area of the triangle with point 0; any other triangle's is a sum of three of these
+  // twice the area of the triangle of point 0 and two others; the area of any other triangle is a sum of three of these
   ivec3 area[kPoints * kPoints];
 #define AT(i, j) [(i) * kPoints + (j)]
 #define POINT(i) p[i] = placeFrom(origin, place[i]); piece AT(i - 1u, i) = side;

@@ -1,13 +1,13 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Computes the sums over the triangles of all parts for which there is memory, as defined in mesh/part_sums.h: several
-// workgroups per part, one invocation per triangle. Runs after the triangles are written. 64-bit numbers are a low and
-// a high word.
+// Computes the sums over the triangles of all parts that fit into the buffers, as defined in mesh/part_sums.h: several
+// workgroups per part, one invocation per triangle. Requires that the triangles are written. 64-bit numbers are stored
+// as a low and a high word.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"
 
-const uint kSums = 5u;  // area, three components of the cross product, six volumes
+const uint kSums = 5u;  // number of sums: area, three components of the cross product, six volumes
 shared uvec2 shares[kSums * gl_WorkGroupSize.x];
 
 uvec2 add(uvec2 a, uvec2 b) {
@@ -42,7 +42,7 @@ float toFloat(uvec2 a) { return float(a.y) * 4294967296.0 + float(a.x); }
 
 // Returns the square root, rounded to the nearest integer, for x < 2^62.
 uint roundedRoot(uvec2 x) {
-  // Correct however inexact the device's floats are: the loops end at the exact root.
+  // The first guess may be inexact on some devices; the loops that follow find the exact root.
   uint root = uint(min(sqrt(toFloat(x)), 2147483520.0));
   if (root > 0u) {
     uvec2 squared = square(root);
@@ -55,7 +55,7 @@ uint roundedRoot(uvec2 x) {
   return root + (subtract(x, square(root)).x > root ? 1u : 0u);
 }
 
-// Same as fixedRoot of mesh/triangle_terms.h.
+// Does the same as fixedRoot of mesh/triangle_terms.h.
 uvec2 fixedRoot(uvec2 squared) {
   const uint kLengthBits = 12u;
   uint bits = squared.y < 1u << 6 ? kLengthBits : squared.y < 1u << 18 ? kLengthBits / 2u : 0u;
@@ -91,8 +91,8 @@ void main() {
   if (lane >= kSums) return;
   uvec2 sum = uvec2(0u);
   for (uint i = 0u; i < gl_WorkGroupSize.x; ++i) sum = add(sum, shares[lane * gl_WorkGroupSize.x + i]);
-  // The invocation whose addition makes the low word overflow adds the carry to the high word, so the order does not
-  // matter.
+  // If adding to the low word overflows, the same invocation adds the carry to the high word, so the order of additions
+  // does not matter.
   uint place = kHeadWords + part_count * kPartWords + part * kSumWords + 2u * lane;
   uint before = atomicAdd(parts[place], sum.x);
   atomicAdd(parts[place + 1u], sum.y + (before + sum.x < before ? 1u : 0u));

@@ -1,11 +1,12 @@
 // One pass over the records in the window, in sweeps: for each kind of op in turn, processes all successive records of
-// that kind. Included in a function for which the forms (FORM_*) are defined: for values, values with gradients, or
-// bounds. The forms can use dst, ra, rb, rc, place and P, and read words by PU.
+// that kind. Included in a function, for which the macros FORM_* are defined: for values, for values with gradients, or
+// for bounds. These macros may use dst, ra, rb, rc, place and P, and read words by PU.
 //
-// Software Vulkan runs the body of a loop once even if no record is of its kind. Therefore ops that only join values
-// may share a loop, which saves time because they are short: READ_JOINED reads the operands, the form of the current op
-// sets the result, WRITE_JOINED stores it. And therefore a body that runs without a record reads zeroes: words of a
-// record of another kind could be denormals when read as floats, each of which costs a processor a hundred cycles.
+// Software Vulkan runs the body of a loop once even if no record is of its kind. Therefore ops that only combine values
+// share one loop, which saves time because they are short: READ_JOINED reads the operands, the form of the current op
+// sets the result, WRITE_JOINED stores it. For the same reason, a body that runs without a record reads zeroes: the
+// words of a record of another kind could be denormals when read as floats, each of which costs a processor a hundred
+// cycles.
 
 #ifndef FORM_NOISE
 #define FORM_NOISE(F) FORM_POSITION(F)

@@ -1,27 +1,28 @@
-// How a shader stores a program (backend/vulkan/tape.h): records are in a private window, and the current record is in
-// registers, whose words are exchanged by shuffles. The costs on software Vulkan are the reason: there, reading a
-// buffer is a loop over the lanes, which takes hundreds of cycles, for one word as for four; reading an array with a
-// variable index is eight loads; and a shuffle is one instruction. On hardware all of this is fast.
+// How a shader stores a field program (backend/vulkan/tape.h): records are in a private array (the window), and the
+// current record is in registers, whose words are exchanged by subgroup shuffles. The reason is the costs on software
+// Vulkan. There, reading a buffer is a loop over the lanes, which takes hundreds of cycles, for one word as for four;
+// reading an array with a variable index is eight loads; and a shuffle is one instruction. On hardware all of this is
+// fast.
 //
-// Requires that every lane of a subgroup is active, as in all control flow here, and that subgroups have at least 8
+// Requires that all lanes of a subgroup are active, as in all control flow here, and that subgroups have at least 8
 // lanes.
 
-// number of slots for values; the last one is never written, and means farther than anything
+// number of slots for values; the last slot is constant and contains a value farther away than any other
 const uint kSlots = 65u;
 const uint kFarSlot = 64u;
-const uint kWindow = 128u;  // number of records in the window
-uvec4 window[kWindow];      // lane l of each 8 lanes has words 4 l to 4 l + 3
+const uint kWindow = 128u;  // number of pieces of records in the window; a piece has 32 words
+uvec4 window[kWindow];      // pieces of records; of every 8 lanes, lane l stores the words 4 l to 4 l + 3 of each piece
 uvec4 record;               // the current record
-uvec4 own;                  // the operands of the current op (sweep.glsl)
+uvec4 own;                  // words of the record for the current op (sweep.glsl), or zeroes if there is none
 uint record_at;             // index of the current record in the window
-uint record_number;         // number of records before it in the list
+uint record_number;         // number of the current record in the list
 
 uint wordOfRecord(uint i) {
   uint k = i & 3u;
   return subgroupShuffle(k == 0u ? own.x : k == 1u ? own.y : k == 2u ? own.z : own.w, i >> 2);
 }
 
-// Returns a parameter word whose number is not a constant: one of the first 28, or of those behind the first 32 words.
+// Returns a parameter word whose number is not a constant: one of the first 28 words, or a word after the first 32.
 uint farWord(uint i) {
   uint k = i < 28u ? i + 2u : i + 4u;
   uvec4 piece = window[record_at + (k >> 5)];
@@ -29,7 +30,8 @@ uint farWord(uint i) {
   return subgroupShuffle(c == 0u ? piece.x : c == 1u ? piece.y : c == 2u ? piece.z : piece.w, (k >> 2) & 7u);
 }
 
-// Only kinds of op that occur are compiled on software Vulkan, which would run each of them at least once per sweep.
+// Masks of the kinds of op that occur. Code for other kinds is not compiled, because software Vulkan would run it at
+// least once per sweep.
 layout(constant_id = 1) const uint kKindsLow = 0xFFFFFFFFu;
 layout(constant_id = 2) const uint kKindsHigh = 0xFFFFFFFFu;
 #define OCCURS(NUMBER) ((((NUMBER) < 32u ? kKindsLow >> ((NUMBER) & 31u) : kKindsHigh >> ((NUMBER) & 31u)) & 1u) != 0u)

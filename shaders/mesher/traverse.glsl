@@ -1,5 +1,5 @@
-// Lists the triangles of a loop in pre-order, from the apexes of its chords. The chords that are still to be divided
-// are successive: they are stored as the point where the first one begins, and a bit for each point where one ends.
+// Lists the triangles of a loop in pre-order, from the apexes of its chords. The chords that still have to be divided
+// are adjacent. They are stored as the point where the first one starts, and a bit for each point where one ends.
 
 struct Chords {
   uint from, ends;
@@ -9,7 +9,7 @@ Chords wholeLoop(uint n) { return Chords(0u, 1u << (n - 1u)); }
 bool anyLeft(Chords c) { return c.ends >> c.from > 1u; }
 uint endOfFirst(Chords c) { return c.from + 1u + uint(findLSB(c.ends >> (c.from + 1u))); }
 
-// Divides the first chord at its apex into two chords, and drops those that are sides of the loop.
+// Divides the first chord at its apex into two chords. A chord that is a side of the loop is dropped.
 void cutFirst(inout Chords c, uint apex) {
   c.ends |= 1u << apex;
   c.from += uint(findLSB(~(c.ends >> (c.from + 1u))));

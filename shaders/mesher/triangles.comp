@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
-// Writes the triangles of all bodies for which there is memory: one invocation per active cell. Runs after the vertices
-// have their positions.
+// Writes the triangles of all bodies that fit into the buffers: one invocation per active cell. Requires that the
+// positions of vertices are written.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"

@@ -1,10 +1,10 @@
-// Triangulates a flat loop of up to 12 points: the same as triangulateFlatLoop of mesh/triangulate_any.h.
+// Triangulates a flat loop of up to 12 points, with the same result as triangulateFlatLoop of mesh/triangulate_any.h.
 
 const uint kLongestLoop = 12u;
 
 struct Point {
-  uint place;  // position in the cell, ten bits per axis
-  uint rest;   // number of the vertex and, from bit 16 on, the mask of its edge's faces
+  uint place;  // position of the point in the cell, ten bits per axis
+  uint rest;   // number of the vertex; from bit 16 on, the mask of faces on which its edge lies
 };
 
 Point packPoint(uvec3 place, uint faces, uint vertex) {
@@ -19,20 +19,20 @@ int measureOf(ivec3 a, ivec3 b, ivec3 c) {
   return n.x + n.y + n.z;
 }
 
-// A chord is stored in a word: the largest possible smallest triangle of its piece and, in the lowest four bits, the
-// apex that gives it.
+// Returns the apex of a chord's best triangle. A chord is stored in a word: the size of the smallest triangle in its
+// part of the loop, as large as possible, and the apex that achieves it in the lowest four bits.
 uint apexOf(uint chord) { return chord & 15u; }
 int bestOf(uint chord) { return int(chord) >> 4; }
 
-// Globals, because array arguments would be copied element by element.
+// Global variables, because array arguments would be copied element by element.
 Point loop[kLongestLoop];
 uint chord[kLongestLoop * kLongestLoop];
-int total[kLongestLoop * kLongestLoop];  // by chord: the smallest total area of its piece
+int total[kLongestLoop * kLongestLoop];  // for each chord: minimum total area of the triangles in its part of the loop
 
-// Computes the chords of the loop of n points.
+// Computes the best triangulation for all chords of the loop of n points.
 void cutLoop(uint n) {
-  const int side = 0x7FFFFFF;  // more than the size of any triangle
-  const int never = 1 << 24;   // more than the area of any loop
+  const int side = 0x7FFFFFF;  // larger than the size of any triangle
+  const int never = 1 << 24;   // larger than the area of any loop
   uint i = 0u, span = 2u;
   do {
     uint j = i + span, k = i + 1u, chosen = 0u;

@@ -1,9 +1,9 @@
-// Fills the window of tape.glsl from an item's list, as far as there is space.
+// Fills the window of tape.glsl with the records of an item's list, as far as they fit.
 
 const uint kEndOfWindow = 0xFFu;
 
-// Loads the entries from..end of the list; returns the first entry for which there was no space. Each round reads a
-// piece of a record, 32 words; entries are read eight at a time, one per lane.
+// Loads the list entries from..end; returns the first entry that did not fit. Each round reads a piece of a record, 32
+// words. Entries are read eight at a time, one per lane.
 uint fillWindow(uint from, uint end) {
   const uint lane = gl_SubgroupInvocationID & 7u;
   uint filled = 0u, at = from, base = from, piece = 0u, pieces = 1u;
@@ -18,16 +18,16 @@ uint fillWindow(uint from, uint end) {
       const bool first = piece == 0u;
       const bool alone_left = first && choice != kKept && kind < kOpCount;
       const uint alone = choice == kFirstAlone ? slots_word >> 8 & 0xFFu : slots_word >> 16 & 0xFFu;
-      // If a minimum of a shape and its operand is reduced to one of them, it stays in its row of minima: a minimum
-      // without its first operand takes the operand twice; a shape without its operand gets the far slot as its second
-      // operand. Other reduced records become copies.
+      // If a minimum is reduced to one operand, it stays a minimum, so that a series of minima is not interrupted: its
+      // remaining operand is used twice. If pruning has removed the operand that is united with a shape, the far
+      // slot (a constant far value) replaces it. Other reduced records become copies.
       const bool unites = kind < kFirstJoin && choice == kSecondAlone;
       const bool copies = alone_left && kind != kOp_minimum && kind != kOp_maximum && !unites;
       if (alone_left && lane == 0u) {
         words.x = copies ? kOp_copy | 1u << 16 : words.x;
         words.y = (slots_word & 0xFFu) | alone << 8 | alone << 16;
       }
-      // The ninth word of a fold contains its flags.
+      // For a fold (items.glsl), clears the flag for testing the influence box, in the record's ninth word.
       if (first && choice == kFirstAlone && kind >= kOpCount && lane == 2u) words.x &= ~2u;
       if (first) pieces = copies ? 1u : head >> 16;
       fits = fits && (!first || filled + pieces + 1u < kWindow);

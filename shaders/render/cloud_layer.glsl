@@ -1,8 +1,8 @@
-// Clouds of fair weather behind everything else: small cumulus at one height and, far above it, streaks of cirrus. They
-// depend on the view direction alone, so that they stay where they are while the eye moves. The including file must
-// include render/noise.glsl.
+// Fair-weather clouds behind the scene: small cumulus at one height and, far above, streaks of cirrus. They depend only
+// on the view direction, so that they do not move while the eye moves. The including file must include
+// render/noise.glsl.
 
-// Returns the distance in metres along a direction to a height over a spherical earth. up: sine of the direction's
+// Returns the distance in metres, along a direction, to a height above a spherical earth. up: sine of the direction's
 // elevation.
 float wayTo(float level, float up) {
   const float kEarth = 6.371e6;
@@ -10,11 +10,11 @@ float wayTo(float level, float up) {
   return c / (sqrt(b * b + c) + b);
 }
 
-const float kCloudBase = 1250.0;  // metres above the land
+const float kCloudBase = 1250.0;  // height of the clouds' base, in metres above the land
 const float kCloudDepth = 800.0;
 
-// Where cumulus is: 0 at its border, up to 1 in its middle, below 0 outside. If the result is certainly below `least`,
-// an upper bound of it is returned.
+// Returns how far inside a cumulus cloud a position is, horizontally: 0 at the border, up to 1 in the middle, below 0
+// outside. If the result is certainly below `least`, returns an upper bound instead.
 float cumulusAt(vec2 at, float least) {
   vec3 p = vec3(at.x, 900.0, at.y) / 7300.0;
   float heap = -0.40, size = 0.55;
@@ -27,12 +27,12 @@ float cumulusAt(vec2 at, float least) {
   return heap;
 }
 
-// Returns the smallest cumulusAt() at which there may be a cloud. share: height above the cloud's base, divided by its
-// depth.
+// Returns the minimum of cumulusAt() at which there may be cloud at this height. share: height above the cloud's base,
+// divided by the cloud's depth.
 float leastHeap(float share) { return 0.76 * share * share - 0.24; }
 
-// Returns the density, 0..1. heap: cumulusAt() there; share: height above the cloud's base, divided by its depth. Bases
-// are flat, tops are heaped.
+// Returns the density of cumulus, 0..1. heap: value of cumulusAt() there; share: height above the cloud's base, divided
+// by the cloud's depth. Bases are flat, tops are heaped.
 float cumulusDensity(vec3 p, float heap, float share, int octaves) {
   float body = 1.25 * heap - 0.95 * share * share - 0.3 * (1.0 - smoothstep(0.0, 0.10, share)) - 0.14;
   if (body <= -0.5) return 0.0;
@@ -46,18 +46,18 @@ float cumulusDensity(vec3 p, float heap, float share, int octaves) {
   return smoothstep(0.0, 0.34, body);
 }
 
-// The parameters of a cloud layer, as the eye sees it.
+// Parameters of a cloud layer, relative to the eye.
 struct CloudLayer {
-  float base;    // height above the eye in metres
-  float beyond;  // metres: clouds are not nearer than this
-  int steps;     // number of steps along a direction
+  float base;    // height of the layer's base above the eye, in metres
+  float beyond;  // minimum distance of clouds in metres
+  int steps;     // number of steps of a ray
 };
 
-// Returns the light of cumulus in direction d (rgb), and the share of what is behind it that remains visible (a). turn:
-// 0..1, where within a step the first sample is.
+// Returns the light of cumulus in direction d (rgb), and its transmittance (a). turn: position of the first sample
+// within a step, 0..1.
 vec4 cumulus(CloudLayer layer, vec3 d, vec3 to_sun, vec3 sun_light, vec3 behind, float turn) {
   const int kShort = 4;
-  const float kLost = 0.0075;  // share of light lost per metre at full density
+  const float kLost = 0.0075;  // extinction per metre at full density
   int steps = layer.steps;
   float step_share = 1.0 / float(steps), base = layer.base, beyond = layer.beyond;
   if (d.y < 0.012) return vec4(0.0, 0.0, 0.0, 1.0);
@@ -65,7 +65,7 @@ vec4 cumulus(CloudLayer layer, vec3 d, vec3 to_sun, vec3 sun_light, vec3 behind,
   if (begin + way < beyond) return vec4(0.0, 0.0, 0.0, 1.0);
   float through = 1.0, forward = pow(max(dot(d, to_sun), 0.0), 8.0);
   vec3 sum = vec3(0.0);
-  // Long steps are divided where there may be a cloud; its outline is interpolated between the two ends of the long
+  // Long steps are subdivided where there may be cloud; the cloud's outline is interpolated between the ends of the
   // step.
   float after = -1.0;
   for (int i = -1; i < steps && through > 0.02; ++i) {
@@ -76,11 +76,11 @@ vec4 cumulus(CloudLayer layer, vec3 d, vec3 to_sun, vec3 sun_light, vec3 behind,
     for (int k = 0; k < kShort; ++k) {
       float part = float(k) / float(kShort), share = low + step_share * part, heap = mix(before, after, part);
       vec3 p = d * (begin + share * way);
-      // Density here, and then on the way to the sun.
+      // Sums up the density here, and then along the way to the sun.
       float density = 0.0, deep = 0.0;
       for (int j = 0; j < 3; ++j) {
         float ahead = j == 0 ? 0.0 : 22.0 * exp2(1.6 * float(j));
-        // At small distances the outline of the cloud is assumed to be the same as here.
+        // For short distances, the outline of the cloud is assumed to be the same as here.
         float at = share + to_sun.y * ahead / kCloudDepth, other = j == 2 ? heap - 0.08 : heap;
         float one = cumulusDensity(p + to_sun * ahead, other, at, j == 0 ? 3 : 1);
         if (j == 0) density = one;
@@ -100,7 +100,7 @@ vec4 cumulus(CloudLayer layer, vec3 d, vec3 to_sun, vec3 sun_light, vec3 behind,
   return vec4(shown * mix(behind * (1.0 - through), sum, clear), mix(1.0, through, shown));
 }
 
-// Returns how much of the sky cirrus hides: streaks along the wind, in patches.
+// Returns how much of the sky cirrus hides, 0..1: streaks along the wind, in patches.
 float cirrus(vec3 d) {
   if (d.y < 0.02) return 0.0;
   vec2 at = d.xz * wayTo(8500.0, d.y), along = vec2(0.83 * at.x + 0.56 * at.y, 0.83 * at.y - 0.56 * at.x);

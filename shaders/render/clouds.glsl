@@ -1,4 +1,4 @@
-// The sky of a fair day, with its clouds.
+// The sky on a day of fair weather, with its clouds.
 
 #include "render/cloud_layer.glsl"
 
@@ -7,20 +7,20 @@ float cloudBase() {
   return kCloudBase - (frame.land.y < 0.0 ? 0.0 : clamp(frame.eye.y - frame.land.x, 0.0, kCloudBase - 150.0));
 }
 
-// Returns the sky in a direction, with the sun's disc and clouds.
+// Returns the light of the sky in a direction, with the sun's disc and clouds.
 vec3 fairSky(vec3 d, float turn) {
   vec3 to_sun = frame.sun.xyz, clear = sky(d), c = clear;
   float s = dot(d, to_sun);
   c += vec3(9.0, 8.0, 6.5) * smoothstep(0.99996, 0.99998, s);
   c = mix(c, vec3(0.86, 0.89, 0.92) + 0.35 * sunLight() * pow(max(s, 0.0), 12.0), cirrus(d));
-  // The lower the clouds are above the eye, the longer the paths through them, and the more steps are needed.
+  // If the clouds are only a little above the eye, paths through them are longer, so more steps are needed.
   CloudLayer layer = CloudLayer(cloudBase(), max(-frame.land.w, 0.0), frame.land.w < 0.0 ? 84 : 28);
   vec4 near = cumulus(layer, d, to_sun, sunLight(), clear, turn);
   return c * near.a + near.rgb;
 }
 
-// Returns the share of the sun's light that reaches the land through the clouds. from_eye: metres from the point under
-// the eye.
+// Returns the share of sunlight that reaches the land through the clouds. from_eye: horizontal position in metres,
+// relative to the eye.
 float sunOnLand(vec2 from_eye) {
   if (frame.land.w == 0.0) return 1.0;
   vec3 to_sun = frame.sun.xyz;

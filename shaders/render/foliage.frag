@@ -1,7 +1,7 @@
 #version 450
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-// Draws the ground between blades: the taller they are, the darker it is.
+// Draws the ground between blades of grass: the taller the blades, the darker the ground.
 #include "render/foliage.glsl"
 #include "render/noise.glsl"
 
@@ -13,7 +13,7 @@ layout(location = 4) flat in float grown;
 layout(location = 5) in float share;
 layout(location = 6) in float growth;
 layout(location = 0) out vec4 out_position;
-// w: if below 0, minus the brightness, which depends on how deep in the foliage the point is
+// w: if below 0, minus the brightness, which decreases with the depth of the point in the foliage
 layout(location = 1) out vec4 out_normal;
 
 void main() {

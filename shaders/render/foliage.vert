@@ -7,7 +7,8 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uint material;
-layout(location = 3) in vec2 grown;  // see Foliage::ground in runtime/tools/render/foliage.h
+// x: which of the two materials is a lawn; y: height of the blades (Foliage::ground in runtime/tools/render/foliage.h)
+layout(location = 3) in vec2 grown;
 layout(location = 4) in uint second;
 layout(location = 5) in float share;
 layout(location = 0) out vec3 out_position;

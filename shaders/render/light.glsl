@@ -1,11 +1,11 @@
-// The light that reaches a surface, and what the surface reflects to the eye.
+// The light that reaches a surface, and the light that the surface reflects to the eye.
 
 #include "render/sky.glsl"
 
 ivec2 planeSize() { return ivec2(frame.size.xy * frame.size.z); }
 
-// Returns how open the surface is to its surroundings, 0..1 (after McGuire et al., "The alchemy screen-space ambient
-// obscurance").
+// Returns the ambient openness of a surface in screen space, 0..1 (after McGuire et al., "The alchemy screen-space
+// ambient obscurance").
 float openness(ivec2 at, vec3 p, vec3 n, float distance_to_eye, float radius, float turn) {
   const int kTaps = 9;
   float reach = clamp(radius / (distance_to_eye * frame.eye.w), 4.0, 0.22 * float(planeSize().y));
@@ -24,13 +24,13 @@ float openness(ivec2 at, vec3 p, vec3 n, float distance_to_eye, float radius, fl
   return clamp(1.0 - 0.42 * hidden / float(kTaps) * 2.0, 0.0, 1.0);
 }
 
-// Returns the share of light that is reflected: Lambert's law, wrapped for translucent materials, and a GGX highlight.
-// n.l is included.
+// Returns the share of light that is reflected to the eye, including the factor n.l: diffuse reflection by Lambert's
+// law, wrapped for translucent materials, and a GGX highlight.
 vec3 reflected(Surface s, vec3 to_light, vec3 to_eye) {
   float nl = dot(s.normal, to_light);
   float wrap = 0.6 * s.translucency;
   float diffuse = max(0.0, (nl + wrap) / (1.0 + wrap));
-  // Light that comes through the material is coloured twice.
+  // Transmitted light is tinted twice by the material's colour.
   vec3 twice = s.albedo / max(max(s.albedo.r, s.albedo.g), max(s.albedo.b, 1e-4));
   vec3 through = mix(vec3(1.0), twice, s.translucency * (1.0 - smoothstep(-0.2, 0.6, nl)));
   vec3 result = s.albedo * through * diffuse;
@@ -47,8 +47,8 @@ vec3 reflected(Surface s, vec3 to_light, vec3 to_eye) {
   return result;
 }
 
-// Returns the light of a lamp that haze scatters between the eye and distance t along d: the integral of 1 / r^2. A
-// lamp in haze has a wide halo without a bright core, which would look like a highlight on a shiny surface.
+// Returns the light of a lamp that haze scatters towards the eye, up to distance t along d: the integral of 1 / r^2.
+// The halo is wide and has no bright core, which would look like a highlight on a shiny surface.
 float glow(vec3 d, float t, vec3 lamp, float reach) {
   vec3 q = frame.eye.xyz - lamp;
   float b = dot(d, q), s = inversesqrt(max(dot(q, q) - b * b, 0.06 * reach * reach));

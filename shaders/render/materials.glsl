@@ -1,4 +1,5 @@
-// Selects the function of each pattern. The numbers are those of SurfacePattern in runtime/tools/materials/material.h.
+// Calls the shading function of a surface pattern. The numbers of patterns are those of SurfacePattern in
+// runtime/tools/materials/material.h.
 #include "render/material/surface.glsl"
 #include "render/material/stone.glsl"
 #include "render/material/masonry.glsl"
@@ -6,8 +7,8 @@
 #include "render/material/ground.glsl"
 #include "render/material/fluid.glsl"
 
-// One bit for each pattern that the scene contains; the highest bit for the sky. Other patterns are not compiled:
-// branches depend on this constant alone, so that unused ones are removed before a driver reads the shader.
+// Mask of the patterns that occur in the scene, one bit each; the highest bit is for the sky. Branches for other
+// patterns depend only on this constant, so they are removed before a driver compiles the shader.
 layout(constant_id = 0) const uint kPatterns = 0xFFFFFFFFu;
 const uint kSkyBit = 31u;
 #define has(pattern) ((kPatterns >> (pattern) & 1u) != 0u)

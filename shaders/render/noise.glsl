@@ -1,6 +1,7 @@
-// Procedural noise for surfaces. Only pictures use it: it does not affect derived data.
+// Procedural noise for the appearance of surfaces. Only pictures use it: it does not affect derived data such as
+// meshes.
 
-uvec3 scramble(uvec3 v) {  // Jarzynski and Olano, "Hash functions for GPU rendering" (pcg3d)
+uvec3 scramble(uvec3 v) {  // the hash pcg3d of Jarzynski and Olano, "Hash functions for GPU rendering"
   v = v * 1664525u + 1013904223u;
   v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
   v ^= v >> 16u;
@@ -11,8 +12,8 @@ uvec3 scramble(uvec3 v) {  // Jarzynski and Olano, "Hash functions for GPU rende
 vec3 random3(ivec3 c) { return vec3(scramble(uvec3(c)) >> 8) * (1.0 / 16777216.0); }
 vec3 gradientAt(ivec3 c) { return random3(c) * 2.0 - 1.0; }
 
-// Loops over the neighbours of a point are marked [[dont_unroll]]: drivers inline hundreds of calls of them, and Mesa
-// takes the longer to unroll a loop the larger the whole shader is.
+// Loops over the neighbours of a point are marked [[dont_unroll]]: drivers inline hundreds of calls of these functions,
+// and unrolling makes compilation by Mesa slow, the more so the larger the whole shader is.
 
 // Returns gradient noise, about -1..1, in x, and its derivative in yzw.
 vec4 noise(vec3 p) {
@@ -30,7 +31,7 @@ vec4 noise(vec3 p) {
   return sum * 1.4;
 }
 
-// Returns the same noise without its derivative, which is faster.
+// Returns the value of noise(p) without its derivative, which is faster.
 float plainNoise(vec3 p) {
   vec3 cell = floor(p), f = p - cell, u = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
   float sum = 0.0;
@@ -42,7 +43,7 @@ float plainNoise(vec3 p) {
   return sum * 1.4;
 }
 
-// Returns the distance from p to the nearest border of a Voronoi cell, where cells are about 1 wide.
+// Returns the distance from p to the nearest border of a Voronoi cell; cells are about 1 wide.
 float borderDistance(vec2 p, int seed) {
   vec2 cell = floor(p), f = p - cell;
   ivec2 i = ivec2(cell);

@@ -1,4 +1,4 @@
-// The numbers of patterns that shaders refer to by name, in the subset of GLSL that C++ accepts:
+// Numbers of surface patterns that shaders refer to by name, written in the subset of GLSL that C++ accepts:
 // runtime/tools/render/materials.cpp checks that they equal those of SurfacePattern.
 const uint kRock = 0u;
 const uint kBrick = 4u;
@@ -19,7 +19,7 @@ const uint kGlowing = 26u;
 const uint kLying = 27u;
 const uint kLava = 28u;
 const uint kLeaded = 29u;
-// The kinds of rooms behind a pane of glass: see runtime/tools/materials/material.h.
+// The kinds of rooms behind a window pane: see runtime/tools/materials/material.h.
 const uint kClearPane = 1u;
 const uint kShopBehind = 2u;
 const uint kOfficeBehind = 3u;

@@ -14,7 +14,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// Returns Spot::light at a point.
+// Returns the direction and the share of the strongest light at a point (Spot::light).
 vec3 lightOn(vec3 p, vec3 n, Traced traced) {
   const vec3 kSeen = vec3(0.2126, 0.7152, 0.0722);
   float all = dot(traced.light, kSeen);
@@ -45,7 +45,8 @@ Surface surfaceAt(uint material, vec3 p, vec3 n, vec3 to_eye, float footprint, T
   return s;
 }
 
-// Draws texture coordinates as a checkerboard instead of the material. field: from surface.frag.
+// Returns a checkerboard that shows texture coordinates, instead of the material. field: value computed by
+// surface.frag.
 Surface chequered(float field, vec3 n) {
   Surface s;
   s.albedo = mix(vec3(0.16), vec3(0.55), clamp(field - 1.0, 0.0, 1.0));
@@ -58,8 +59,8 @@ Surface chequered(float field, vec3 n) {
   return s;
 }
 
-// Sets the surface of blades and leaves from what sprout.vert stores: brightness by how deep they are in the foliage;
-// white and yellow blossoms, and dry stalks. open: share of the sun's light that reaches the point.
+// Sets the appearance of blades and leaves from the value that sprout.vert stores (`told`): brightness by their depth
+// in the foliage; white and yellow blossoms, and dry stalks. open: share of sunlight that reaches the point.
 void growing(inout Surface s, float told, uint pattern, vec3 d, float open) {
   float kind = floor(told / 4.0), bright = told - 4.0 * kind;
   if (kind == 1.0 || kind == 2.0) {
@@ -76,7 +77,7 @@ void growing(inout Surface s, float told, uint pattern, vec3 d, float open) {
   float against = max(dot(d, frame.sun.xyz), 0.0);
   s.within += s.albedo * vec3(1.30, 1.25, 0.40) * sunLight() * (open * 0.45 * against * against);
   if (!leafy) return;
-  // Light that has come through other leaves of the crown, from above and from the sun, and so is green.
+  // Light from above and from the sun that has passed through other leaves of the crown, and so is green.
   vec3 above = 0.5 * skyLight(vec3(0.0, 1.0, 0.0), frame.sun.xyz) + 0.10 * sunLight() * max(frame.sun.y, 0.0);
   s.within += s.albedo * vec3(1.0, 1.15, 0.55) * above * (0.55 - 0.25 * s.normal.y);
 }
@@ -112,7 +113,7 @@ vec3 haze(vec3 colour, vec3 d, float t) {
   return mix(background(d), colour, clear) + scattered * (0.010 / frame.forward.w);
 }
 
-// Returns what is visible outdoors where there is no body. overhead: the sky there.
+// Returns what is visible outdoors in a direction without objects. overhead: the sky in this direction.
 vec3 outdoors(vec3 d, vec3 overhead) {
   if (frame.land.y < 0.0 || !has(kSkyBit)) return overhead;
   vec3 own = frame.land.y >= 1e6 ? vec3(0.125, 0.150, 0.060) : materials[uint(frame.land.y)].colour_roughness.rgb;
@@ -126,15 +127,15 @@ vec3 bodyAt(ivec2 at, vec3 d, vec3 overhead) {
   vec4 facing = texelFetch(normal_plane, at, 0);
   vec3 p = seen.xyz, n = normalize(facing.xyz);
   float t = length(p - frame.eye.xyz);
-  // At grazing angles, a sample covers more of the surface. Half of the increase is used, which looks sharp without
-  // flicker.
+  // At grazing angles, a sample covers more of the surface. Only half of the increase is used, which looks sharp
+  // without flicker.
   float footprint = t * frame.eye.w / mix(1.0, max(0.25, abs(dot(n, d))), 0.5);
   Traced traced = tracedAt(at, p, n, t);
   Surface s = surfaceAt(uint(seen.w) - 1u, p + frame.pattern_offset.xyz, n, -d, footprint, traced);
   if (facing.w > 0.0) s = chequered(facing.w, n);
   if (facing.w < 0.0) growing(s, -facing.w, materials[min(uint(seen.w) - 1u, frame.counts.y - 1u)].pattern.x, d, traced.open[0].x);
   s.normal = turnedTo(-d, s.normal, n);
-  // Rays are too few to find occluders within a hand's breadth, so screen-space occlusion is added.
+  // Screen-space occlusion is added, because there are too few traced rays to find occluders within a hand's breadth.
   float open = openness(at, p, n, t, clamp(0.02 * t, 0.10, 4.0), turn.y);
   vec3 colour = s.within;
   if (frame.size.w == 1u) {
@@ -163,7 +164,7 @@ vec3 sampleAt(ivec2 at, vec3 overhead) {
   return mix(hazeIn(d) * (1.0 - clouds.through), clouds.light, clear) + behind;
 }
 
-// Returns the sky of a pixel. It is so smooth that it is computed once for all samples of the pixel.
+// Returns the sky at a pixel. The sky is so smooth that it is computed once for all samples of the pixel.
 vec3 skyOver(ivec2 pixel, int side) {
   if (frame.size.w != 1u || !has(kSkyBit)) return vec3(0.0);
   vec3 d = directionAt((vec2(pixel) + 0.5) * float(side));

@@ -1,15 +1,17 @@
 #version 450
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-// An instance is a blade, a leaf or a blossom: a strip of seven corners, of which leaves and blossoms use six.
+// Draws an instance: a blade, a leaf or a blossom, as a triangle strip of seven vertices, of which leaves and blossoms
+// use six.
 #include "render/foliage.glsl"
 #include "render/noise.glsl"
 
-layout(location = 0) in vec4 root;    // w: its length in metres
-layout(location = 1) in vec4 normal;  // normal of the surface on which it grows; w: its width in metres
+layout(location = 0) in vec4 root;    // position of the root; w: length of the blade or leaf in metres
+layout(location = 1) in vec4 normal;  // normal of the surface on which it grows; w: width of the blade or leaf in
+                                      // metres
 layout(location = 2) in uint material;
 layout(location = 3) in uint lot;   // random number of the instance
-layout(location = 4) in uint form;  // SproutForm, runtime/tools/render/foliage.h
+layout(location = 4) in uint form;  // kind of plant part: SproutForm of runtime/tools/render/foliage.h
 layout(location = 5) in float bright;
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
@@ -56,7 +58,7 @@ void placeBlade(vec3 dice, vec3 more) {
   bool dry = form == kDry;
   float bend = (dry ? 0.25 : 0.75) * (0.12 + dice.y * dice.y), shape = dry ? 1.0 : 1.0 - 0.55 * along * along;
   vec3 stem = root.w * (up * (along - 0.35 * bend * along * along) + lean * (bend * along * along));
-  // The ears of dry stalks are wider than the stalks.
+  // The ears of dry stalks are wider than their stems.
   float wide = normal.w * (dry && row == 2 ? 2.4 : shape);
   out_position = root.xyz - up * 0.01 + stem + across * (wide * side);
   vec3 face = normalize(across * (1.2 * side) + cross(across, up + 2.0 * bend * along * lean));

@@ -1,7 +1,8 @@
 #version 450
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-// Stores what is visible at a sample: its position, normal and material. It is lit once, in a later pass.
+// Stores what is visible at a sample: its position, normal and material. A later pass lights each sample once (deferred
+// shading).
 #include "render/noise.glsl"
 
 layout(location = 0) in vec3 position;
@@ -10,11 +11,12 @@ layout(location = 2) flat in uint material;
 layout(location = 3) in vec2 texture_at;
 layout(location = 4) flat in uint second;
 layout(location = 5) in float share;
-layout(location = 0) out vec4 out_position;  // w: material + 1; 0 for the background
-layout(location = 1) out vec4 out_normal;    // w: the checkerboard's field, 0 if there is none
+layout(location = 0) out vec4 out_position;  // position; w: material + 1, or 0 for the background
+layout(location = 1) out vec4 out_normal;    // normal; w: number of the checkerboard's field, 0 if there is no
+                                             // checkerboard
 
-// Returns the field of a checkerboard: 1 or 2; 3 on a line along u, 4 on a line along v; 1.5 if a field is smaller than
-// a sample.
+// Returns the field of a checkerboard at texture coordinates: 1 or 2; 3 on a line along u, 4 on a line along v; 1.5 if
+// a field is smaller than a sample.
 float chequers(vec2 at) {
   vec2 width = fwidth(at);
   if (width.x + width.y == 0.0) return 0.0;
@@ -31,10 +33,10 @@ void main() {
   float area = dot(facet, facet);
   facet = area > 0.0 ? facet * inversesqrt(area) : vec3(0.0, 1.0, 0.0);
   float length2 = dot(normal, normal);
-  // The viewport is upside down, and therefore the sign of dFdy, too: the front face decides to which side the facet
-  // faces.
+  // The viewport is flipped vertically, and so is the sign of dFdy. Therefore gl_FrontFacing decides on which side of
+  // the facet the normal is.
   vec3 n = length2 > 0.01 ? normal * inversesqrt(length2) : (gl_FrontFacing ? -facet : facet);
-  // Two kinds of stone meet along a ragged line; only paint would blend evenly.
+  // Two kinds of stone meet along a ragged line, because only paint would blend evenly.
   float ragged = 0.5 + 0.22 * noise(position * 3.1).x + 0.10 * noise(position * 13.0).x;
   out_position = vec4(position, float((share > ragged ? second : material) + 1u));
   out_normal = vec4(n, chequers(texture_at));

@@ -1,5 +1,5 @@
 #version 450
-// Projects the mesh into the picture; positions are in metres from the scene's origin.
+// Projects the vertices of the mesh. Positions are in metres from the scene's origin.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uint material;

@@ -1,16 +1,17 @@
-// The light that traced rays have found, for pixels and, filtered, for squares of pixels: see
-// runtime/tools/render/light_planes.h. Each sample takes it from neighbours that lie on its own surface.
+// Light that ray tracing has found, for pixels and, filtered, for squares of pixels: see
+// runtime/tools/render/light_planes.h. Each sample interpolates it from neighbouring pixels that lie on the same
+// surface.
 struct DirectLight { uvec2 open; uvec2 mirror; };
 struct SoftLight { vec4 light; vec4 lean; vec4 lie; };
 layout(std430, binding = 2) readonly buffer Direct { DirectLight direct[]; };
 layout(std430, binding = 6) readonly buffer Soft { SoftLight soft[]; };
 const int kSoftPixels = 2;
-// Clouds in front of the pixel's first sample, as half floats: red, green, blue, and the share of what is behind that
-// is visible.
+// Clouds in front of the first sample of a pixel, as half floats: red, green, blue, and transmittance.
 struct VapourLight { uvec2 light; float distance; float reserved; };
 layout(std430, binding = 7) readonly buffer Vapour { VapourLight vapour[]; };
 
-// Returns the weight, at p, of the light that was found at a sample of the planes.
+// Returns the weight, for a sample at p with normal n, of the traced light of another sample. It is small if the other
+// sample lies on another surface.
 float kinship(ivec2 at, vec3 p, vec3 n, float apart) {
   vec4 q = texelFetch(position_plane, at, 0);
   if (q.w == 0.0) return 0.0;
@@ -18,7 +19,7 @@ float kinship(ivec2 at, vec3 p, vec3 n, float apart) {
   return exp(-min(off, 30.0)) * pow(facing, 8.0) + 1e-6;
 }
 
-// Returns the four elements around a sample, in a plane with one element per `scale` x `scale` samples, and their
+// Returns the four elements around a sample in a buffer with one element per `scale` x `scale` samples, and their
 // weights.
 void around(ivec2 at, int scale, ivec2 size, vec3 p, vec3 n, float apart, out ivec4 elements, out vec4 weights) {
   vec2 place = vec2(at) / float(scale), base = floor(place), f = place - base;
@@ -36,13 +37,14 @@ void around(ivec2 at, int scale, ivec2 size, vec3 p, vec3 n, float apart, out iv
 }
 
 struct Traced {
-  vec4 open[2];  // visibility of lamps 0 to 3 and 4 to 7; lamp 0 is the sun
+  vec4 open[2];  // visibility of the lights 0 to 3 and 4 to 7; light 0 is the sun
   vec3 light;    // mean radiance from all directions
   vec3 lean;
   vec3 mirror;
   float wet;    // 1 at the border of standing water
   float depth;  // depth of water in metres
-  vec3 lie;     // 0..1 each: how much is near; how much a ledge shields from rain; how near the foot of a wall is
+  vec3 lie;     // exposure to weather, 0..1 each. x: share of directions in which a surface is near; y: how much a
+                // ledge above keeps rain off; z: how near the foot of a wall is
 };
 
 Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
@@ -69,7 +71,7 @@ Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
     traced.wet += weights[i] * max(-last.y, 0.0);
     traced.depth += weights[i] * max(last.y, 0.0);
   }
-  // Rays from the outermost leaves hit no surface, which means that nothing is in front of them.
+  // Rays from the outermost leaves hit no surface, so nothing occludes them.
   if (met < 1e-3) {
     traced.open[0] = traced.open[1] = vec4(1.0);
   } else {
@@ -95,17 +97,17 @@ Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
   return traced;
 }
 
-// Returns the filtered light on a surface whose relief turns the normal from n to `turned`.
+// Returns the filtered light on a surface whose relief changes the normal from n to `turned`.
 vec3 softOn(Traced traced, vec3 n, vec3 turned) {
   return traced.light * clamp(1.0 + 1.5 * dot(traced.lean, turned - n), 0.25, 2.5);
 }
 
-// The light of clouds in front of a sample, and the share of what is behind them that is visible. At the edges of
-// bodies, it is taken from those pixels whose first sample is about as far away.
+// The light and the transmittance of clouds in front of a sample. At the edges of objects, it is interpolated only from
+// pixels whose first sample is about as far away.
 struct Clouds {
   vec3 light;
   float through;
-  float distance;  // mean distance in metres
+  float distance;  // mean distance of the clouds in metres
 };
 
 Clouds cloudsBefore(ivec2 at) {

@@ -1,15 +1,16 @@
-// What rain, dirt and use leave on rock and on buildings, in patches and streaks. It depends on the surroundings of a
-// point (Traced::lie).
+// Weathering of rock and buildings: traces of rain, dirt and use, in patches and streaks. It depends on the
+// surroundings of a point (Traced::lie).
 
-// Masks of patterns. Plants, metal and glass do not weather.
+// Masks of patterns that weather in the same way. Plants, metal and glass do not weather.
 const uint kRoofs = 1u << kRoofTiles | 1u << kSlates;
 const uint kStreets = 1u << kPaving | 1u << kCobbles | 1u << kConcrete | 1u << kAsphalt;
 const uint kWeathering = 1u << kRock | kRoofs | kStreets | 1u << kBrick | 1u << kAshlar | 1u << kRubble | 1u << kPlain |
                          1u << kWooden | 1u << kLying | 1u << kBoards;
-// True if a pattern is in the mask. A pattern that the scene does not contain is not compiled.
+// True if the mask `patterns` contains a pattern. Constant false, so that code is removed, if the scene contains none
+// of these patterns.
 bool isOf(uint patterns, uint pattern) { return (kPatterns & patterns) != 0u && (patterns >> pattern & 1u) != 0u; }
 
-// Returns noise with wavelengths of 4.3, 1.2 and 0.34 metres.
+// Returns noises with wavelengths of 4.3, 1.2 and 0.34 metres, for patches.
 vec3 patches(vec3 p, float footprint) {
   vec3 n;
   for (int i = 0; i < 3; ++i) {
@@ -19,23 +20,22 @@ vec3 patches(vec3 p, float footprint) {
   return n;
 }
 
-// Returns -1..1 for streaks of water that runs down: some as wide as a hand and finer ones, long in the vertical
-// direction.
+// Returns streaks of running water, -1..1: some as wide as a hand, others finer, all long in the vertical direction.
 float streaks(vec3 p, float footprint) {
   return fineNoise(vec3(p.x * 5.3, p.y * 0.33, p.z * 5.3), 0.15, footprint) +
          0.6 * fineNoise(vec3(p.x * 17.0, p.y * 0.6, p.z * 17.0) + 7.0, 0.05, footprint);
 }
 
-// flakes: true for plaster.
+// Weathers a wall. flakes: true for plaster, which comes off in sheets.
 void weatherWall(inout Surface s, Spot at, vec3 lie, vec3 patchy, float much, bool flakes) {
   float runs = streaks(at.p, at.footprint);
   float tone = 0.15 * patchy.x + 0.08 * patchy.y + 0.04 * patchy.z;
   s.albedo *= 1.0 + much * tone;
   s.albedo *= mix(vec3(1.0), vec3(1.02, 0.98, 0.90), much * smoothstep(-0.4, 0.6, patchy.y - patchy.x));
-  // Below a ledge the wall is not washed: soot stays, and is washed down where water drips off the ledge.
+  // Below a ledge, rain does not wash the wall: soot stays, and is washed off only where water drips from the ledge.
   float dripped = lie.y * (0.10 + 0.90 * smoothstep(0.0, 0.80, runs + 0.15 * patchy.y));
   s.albedo *= mix(vec3(1.0), vec3(0.52, 0.51, 0.49), much * 0.62 * dripped);
-  // Splashed soil and rising damp at the wall's foot, and algae where it never dries.
+  // Splashed soil and rising damp at the foot of the wall, and algae where it never dries.
   float foot = smoothstep(0.12, 0.95, lie.z + 0.22 * patchy.y + 0.16 * patchy.z + 0.10 * runs);
   s.albedo *= mix(vec3(1.0), vec3(0.56, 0.515, 0.455), 0.70 * foot);
   s.albedo = mix(s.albedo, vec3(0.105, 0.110, 0.062), 0.22 * foot * foot);
@@ -74,7 +74,7 @@ void weatherStreet(inout Surface s, Spot at, uint pattern, vec3 lie, vec3 patchy
   float stain = step(spot.lot.x, 0.30) * (1.0 - smoothstep(0.4 * wide, wide, length(spot.within) + 0.12 * patchy.z));
   s.albedo *= 1.0 - 0.42 * stain * (0.6 + 0.4 * spot.lot.z);
   if (pattern != kAsphalt) return;
-  // Above pipes the asphalt is newer, in rectangles with a border of tar.
+  // Above pipes the asphalt was replaced, in rectangles with a border of tar.
   Block cut = blockAt(q + 0.03 * patchy.zy, vec2(5.2, 3.4), 0.37, 0.3, 0.05);
   vec2 half_size = vec2(0.9 + 1.1 * cut.lot.y, 0.5 + 0.8 * cut.lot.z);
   vec2 outside = abs(cut.within + vec2(0.3, -0.2)) - half_size;
@@ -86,8 +86,8 @@ void weatherStreet(inout Surface s, Spot at, uint pattern, vec3 lie, vec3 patchy
   s.albedo *= mix(vec3(1.0), vec3(1.22, 1.20, 1.16), smoothstep(-0.1, 0.6, patchy.x) * (1.0 - stain));
 }
 
-// Rock in the open: rain makes it grey where it washes it, algae run down in dark bands, and surfaces that an overhang
-// keeps dry stay warm and bright. Soil collects on ledges and, if the land is green, plants grow there.
+// Weathers rock in the open: rain washes it grey, algae run down in dark bands, and surfaces that an overhang keeps dry
+// stay warm and bright. Soil collects on ledges and, if `green`, plants grow there.
 void weatherRock(inout Surface s, Spot at, vec3 lie, vec3 patchy, bool green) {
   float wall = 1.0 - smoothstep(0.45, 0.80, abs(at.n.y)), tone = dot(at.colour, vec3(0.3, 0.5, 0.2));
   float broad = plainNoise(at.p / 17.0 + 5.0), fine = fineNoise(at.p * 7.0, 0.14, at.footprint);
@@ -95,7 +95,7 @@ void weatherRock(inout Surface s, Spot at, vec3 lie, vec3 patchy, bool green) {
   float washed = smoothstep(-0.45, 0.35, broad + 0.45 * patchy.x + 0.25 * patchy.y + 0.10 * fine) * (1.0 - 0.85 * dry);
   s.albedo = mix(s.albedo, 0.62 * (vec3(tone) * vec3(1.0, 0.99, 0.96)) + 0.30 * s.albedo, 0.62 * washed);
   s.albedo *= mix(vec3(1.0), vec3(1.06, 0.96, 0.82), 0.6 * dry);
-  // Bands begin where water comes over an edge, at different heights, and have ragged borders.
+  // Dark bands begin where water comes over an edge, at different heights, and have ragged borders.
   vec3 q = vec3(at.p.x, 0.055 * at.p.y, at.p.z) + vec3(0.5 * patchy.y, 0.0, 0.5 * patchy.z);
   float run = plainNoise(q / 2.6 + 40.0) + 0.55 * fineNoise(q / 0.75, 0.4, at.footprint) +
               0.30 * fineNoise(q / 0.21, 0.11, at.footprint);
@@ -108,7 +108,7 @@ void weatherRock(inout Surface s, Spot at, vec3 lie, vec3 patchy, bool green) {
   s.albedo = mix(s.albedo, sward * (1.0 + 0.35 * fine), 0.85 * grown);
 }
 
-// Paint on which people walk or drive: it has worn off in flakes, and the rest is scuffed.
+// Weathers paint on which people walk or drive: it has worn off in flakes, and the rest is scuffed.
 void weatherPaint(inout Surface s, Spot at, vec3 patchy) {
   float fine = fineNoise(at.p * 9.0, 0.11, at.footprint) + 0.7 * fineNoise(at.p * 34.0, 0.03, at.footprint);
   float off = smoothstep(0.12, 0.62, 0.55 * patchy.y + 0.65 * patchy.z + 0.65 * fine + 0.25 * patchy.x);
@@ -116,7 +116,8 @@ void weatherPaint(inout Surface s, Spot at, vec3 patchy) {
   s.albedo = mix(s.albedo, vec3(0.125, 0.122, 0.118) * (1.0 + 0.3 * fine), 0.62 * off);
 }
 
-// lie: Traced::lie at the point; green: true if the land around is green.
+// Weathers a surface according to its pattern. lie: Traced::lie at the point; green: true if plants grow on the land
+// around.
 void weather(inout Surface s, Spot at, uint pattern, vec3 lie, bool green) {
   if (!isOf(kWeathering, pattern) || at.relief <= 0.0) return;
   if (isOf(1u << kRock, pattern)) {

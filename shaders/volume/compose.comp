@@ -1,12 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Draws the volume's light over the sky.
+// Composites the light of the volume over the sky.
 #include "volume/volume.glsl"
 #include "render/sky.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 5) readonly buffer Light { vec4 light[]; };
-// three words per pixel: runtime/tools/render/lens.h
+// pixels of the picture, three words each, in the format of runtime/tools/render/lens.h
 layout(std430, binding = 6) writeonly buffer Pixels { uint pixels[]; };
 
 void main() {

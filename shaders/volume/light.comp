@@ -1,14 +1,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Computes the light that reaches points of the volume from the sun and the sky, once, so that rays from the eye need
-// not do it.
+// Precomputes, for points of the volume, the light from the sun and the sky, so that rays from the eye need not compute
+// it.
 #include "volume/volume.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
-// optical depth to the sun; share of the sky's light
+// for each point: optical depth towards the sun, and share of the sky's light
 layout(rgba16f, binding = 3) writeonly uniform image3D lit_volume;
 
-// Returns the optical depth along a ray, by steps of a cell that are sampled in their middles.
+// Returns the optical depth along a ray, by steps of one cell, sampled in the middle of each step.
 float opticalDepth(vec3 from, vec3 direction) {
   vec3 d = withoutZeros(direction);
   float end = crossing(from, d, vec3(0.0), volumeEnd()).y, depth = 0.0;
@@ -25,9 +25,9 @@ float opticalDepth(vec3 from, vec3 direction) {
   return depth * frame.corner.w;
 }
 
-// Returns the share of the sky's light. It has been scattered so often that it is absorbed as slowly as the third
-// octave in scattered(). It is taken from straight above and from four sides, because a single direction would cause
-// streaks.
+// Returns the share of the sky's light that reaches a place. Skylight has been scattered so often that it is absorbed
+// as slowly as the third octave in scattered(). It is traced straight up and to four sides, because a single direction
+// would cause streaks.
 float skyShare(vec3 place) {
   float sum = 0.0;
   const vec3 kFrom[] =
@@ -36,8 +36,8 @@ float skyShare(vec3 place) {
   return sum / float(kFrom.length());
 }
 
-// True if a place with density uses the light at this point, alone or interpolated with other points: march.comp reads
-// up to one and a half points away.
+// True if a place with density may read this point of the light volume, alone or by interpolation: march.comp reads
+// points up to one and a half points away.
 bool isSeen(vec3 place, vec3 apart) {
   ivec3 lo = brickAt(place - 1.5 * apart), hi = brickAt(place + 1.5 * apart);
   for (int i = 0; i < 8; ++i) {

@@ -2,7 +2,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // Marches rays through the volume for each pixel, front to back. The result is the light that reaches the eye, and the
-// share of what is behind the volume that remains visible. An engine draws it over its scene.
+// transmittance, the share of the background that remains visible. An engine draws it over its scene.
 #include "volume/volume.glsl"
 #include "volume/scattering.glsl"
 #include "render/noise.glsl"
@@ -10,13 +10,14 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 4) uniform sampler3D lit_volume;
-layout(std430, binding = 5) writeonly buffer Light { vec4 light[]; };  // by pixel; w: transmittance
+layout(std430, binding = 5) writeonly buffer Light { vec4 light[]; };  // light for each pixel; w: transmittance
 
 const float kStep = 0.7;     // length of a step in cells
-const float kOpaque = 0.004;  // below this, less than half a step of 8 bits is visible through the volume
+const float kOpaque = 0.004;  // transmittance at which a ray ends: less than half a step of 8 bits is visible through
+                              // the volume
 
-// Returns the light that a place sends to the eye. turn: random numbers 0..1: light is read at a random place up to
-// half a point away in each direction, because otherwise the cells of the light volume would be visible.
+// Returns the light that a place sends to the eye. turn: random numbers 0..1, which shift the place where the light
+// volume is read by up to half a point in each direction; otherwise the cells of the light volume would be visible.
 vec3 sourceAt(vec3 place, float cosine, vec3 turn) {
   vec3 lit_place = place * (vec3(frame.lit_size.xyz) - 1.0) / volumeEnd() + turn - 0.5;
   vec2 lit = textureLod(lit_volume, (lit_place + 0.5) / vec3(frame.lit_size.xyz), 0.0).rg;
@@ -25,13 +26,13 @@ vec3 sourceAt(vec3 place, float cosine, vec3 turn) {
   return frame.up.w * (sun + around);
 }
 
-// Returns the light along a ray from the eye, and the share of what is behind. turn: numbers that differ from ray to
+// Returns the light along a ray from the eye (rgb), and the transmittance (a). turn: numbers that differ from ray to
 // ray.
 vec4 march(vec3 view, ivec2 turn) {
   vec3 d = withoutZeros(view), from = placeOf(frame.eye.xyz);
   vec2 ends = crossing(from, d, vec3(0.0), volumeEnd());
   float cosine = dot(view, frame.sun.xyz), transmittance = 1.0;
-  // Each ray samples its steps at other positions: banding becomes noise that is too fine to be visible.
+  // The start of each ray is jittered, so that banding becomes noise that is too fine to be visible.
   float jitter = random3(ivec3(turn, 0)).x;
   int steps = 0;
   vec3 sum = vec3(0.0), haze = hazeIn(view);
@@ -45,8 +46,8 @@ vec4 march(vec3 view, ivec2 turn) {
     vec3 place = from + d * (t + jitter * step_length);
     float extinction = extinctionAt(place);
     if (extinction > 0.0) {
-      // Exact where the medium is uniform over the step (Hillaire 2015, "Physically based and unified volumetric
-      // rendering in Frostbite").
+      // This integration of a step is exact if the medium is uniform over the step (Hillaire 2015, "Physically based
+      // and unified volumetric rendering in Frostbite").
       float passed = exp(-extinction * step_length * frame.corner.w);
       float clear = exp(-t * frame.corner.w / frame.forward.w);
       vec3 source = sourceAt(place, cosine, random3(ivec3(turn, ++steps)));

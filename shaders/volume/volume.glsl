@@ -1,28 +1,30 @@
-// A volume of density: its position, its medium, and how a ray crosses it.
+// A density volume: its position, its medium, and how a ray crosses it.
 
-// The layout of VolumeFrame in runtime/tools/render/volume_pass.cpp. Lengths are in metres.
+// Uniforms with the same layout as VolumeFrame in runtime/tools/render/volume_pass.cpp. Lengths are in metres.
 layout(std140, binding = 0) uniform Frame {
   vec4 eye;         // w: exposure
-  vec4 forward;     // w: distance after which about two thirds of the light is lost in haze
-  vec4 right;       // length: half the picture's width at distance 1; w: extinction per metre at density 1
-  // length: half the picture's height at distance 1; w: albedo, the share of light that is scattered and not absorbed
+  vec4 forward;     // view direction; w: distance in metres after which haze has absorbed about two thirds of the light
+  vec4 right;       // to the right in the picture, half the picture's width at distance 1 long; w: extinction per metre
+                    // at density 1
+  // upwards in the picture, half the picture's height at distance 1 long; w: albedo, the share of light that is
+  // scattered and not absorbed
   vec4 up;
   vec4 sun;         // direction to the sun; w: mean cosine of the phase function
-  vec4 corner;      // position of the first point of the volume; w: spacing of points
-  vec4 sun_light;   // irradiance of a plane that faces the sun
-  vec4 sky_light;   // radiance of the sky from above, from below
+  vec4 corner;      // position of the volume's first point; w: distance between points
+  vec4 sun_light;   // irradiance of the sun on a plane that faces it
+  vec4 sky_light;   // radiance of the sky from above, and from below
   vec4 ground_light;
-  uvec4 size;       // number of points on each axis; w: octaves of scattering
-  uvec4 lit_size;   // number of points of the volume of light
+  uvec4 size;       // number of points on each axis of the volume; w: octaves of scattering
+  uvec4 lit_size;   // number of points on each axis of the light volume
   uvec4 picture;    // width and height in pixels; rays per side of a pixel
 } frame;
 
 layout(binding = 1) uniform sampler3D density_volume;
-// 1 for each brick of kBrick^3 cells, including the points on its faces, that has any density.
+// For each brick of kBrick^3 cells, including the points on its faces: 1 if it has any density, otherwise 0.
 layout(std430, binding = 2) readonly buffer Bricks { uint bricks[]; };
 const float kBrick = 8.0;
 
-// Places in the volume are in cells from its first point: 0 to volumeEnd().
+// Positions in the volume are in cells from its first point: 0 to volumeEnd().
 vec3 volumeEnd() { return vec3(frame.size.xyz) - 1.0; }
 vec3 placeOf(vec3 p) { return (p - frame.corner.xyz) / frame.corner.w; }
 
@@ -30,8 +32,8 @@ float extinctionAt(vec3 place) {
   return textureLod(density_volume, (place + 0.5) / vec3(frame.size.xyz), 0.0).r * frame.right.w;
 }
 
-// Returns the parameters at which a ray enters and leaves a box; it misses the box if y <= x (Kay and Kajiya 1986). No
-// component of d may be 0.
+// Returns the ray parameters at which a ray enters (x) and leaves (y) a box; it misses the box if y <= x (Kay and
+// Kajiya 1986). No component of d may be 0.
 vec2 crossing(vec3 from, vec3 d, vec3 lo, vec3 hi) {
   vec3 a = (lo - from) / d, b = (hi - from) / d;
   vec3 first = min(a, b), last = max(a, b);
@@ -47,7 +49,8 @@ bool isEmpty(ivec3 brick) {
   return bricks[(brick.z * count.y + brick.y) * count.x + brick.x] == 0u;
 }
 
-// Returns a distance from t along the ray within which there is certainly no density: 0 in a brick that has density.
+// Returns a distance from t along the ray within which there is certainly no density; 0 inside a brick that has
+// density.
 float emptyAhead(vec3 from, vec3 d, float t) {
   ivec3 brick = brickAt(from + d * t);
   if (!isEmpty(brick)) return 0.0;

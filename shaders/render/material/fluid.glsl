@@ -1,7 +1,7 @@
 // Fluids: water and vapour.
 
-// Still water. Its reflections are traced. Under it is a bed of silt and stones, seen along the refracted ray, and
-// paler the shallower the water is. at.depth: depth of the water in metres.
+// Still water. Its reflections are ray-traced. Through it, a bed of silt and stones is visible along the refracted ray;
+// the shallower the water, the paler the bed. at.depth: depth of the water in metres.
 Surface water(Spot at) {
   Surface s = surfaceOf(at);
   vec3 ripple = noise(at.p * vec3(1.3, 0.0, 1.3)).yzw * visible(0.8, at.footprint) +
@@ -9,9 +9,10 @@ Surface water(Spot at) {
   s.normal = bend(at.n, vec3(ripple.x, 0.0, ripple.z), (at.sheltered ? 0.022 : 0.05) * at.relief);
   vec3 down = refract(-at.to_eye, vec3(0.0, 1.0, 0.0), 0.75);
   float way = at.depth / max(-down.y, 0.6);
-  // Refraction uses a depth of 60 cm, because the traced depth is too coarse for it.
+  // Refraction assumes a depth of 60 cm, because the traced depth is too coarse for it.
   vec2 bed_at = at.p.xz + down.xz * 0.8;
-  // Absorption in clear water over limestone: down to the bed, and up to the eye. In open water, algae absorb more.
+  // Absorption along the way down to the bed and up to the eye: clear water over limestone in caves; in open water,
+  // algae absorb more.
   vec3 through = exp(-(at.depth + way) * (at.sheltered ? vec3(0.36, 0.085, 0.075) : vec3(0.46, 0.23, 0.27)));
 
   vec4 broad = noise(vec3(bed_at * 0.45, 3.0)), mottle = noise(vec3(bed_at * 2.3, 8.0));
@@ -19,7 +20,7 @@ Surface water(Spot at) {
   float grain = fineNoise(vec3(bed_at * 37.0, 2.0), 0.03, at.footprint);
   vec3 silt = vec3(0.235, 0.212, 0.168) * (1.0 + 0.22 * broad.x + 0.16 * mottle.x + 0.10 * fine.x + 0.08 * grain);
   vec3 bed = silt;
-  // Stones are in patches, large ones on small ones, and cast shadows on their surroundings.
+  // Stones on the bed are in patches, large ones on small ones, and shade their surroundings.
   vec2 bent = bed_at + 0.055 * mottle.yz + 0.016 * fine.yz + 0.003 * noise(vec3(bed_at * 27.0, 6.0)).yz;
   float many = 0.5 * broad.x + 0.2 * mottle.x, dark = 0.75 * length(at.light);
   vec3 to_light = at.light * vec3(0.75, 1.0, 0.75);
@@ -35,13 +36,13 @@ Surface water(Spot at) {
     vec3 lot = small.lot;
     vec3 stone = mix(vec3(0.150, 0.130, 0.102), vec3(0.29, 0.262, 0.210), lot.y) * (1.0 + 0.22 * fine.x);
     stone *= 1.0 + 0.30 * grain + 0.15 * mottle.x;
-    // Silt covers their tops and the ground around them.
+    // Silt covers the tops of stones, and the ground around them.
     float settled = smoothstep(0.55, 0.98, small.normal.y + 0.25 * fine.x) * (0.35 + 0.4 * lot.x);
     float sunk = 1.0 - smoothstep(0.0, 0.16, small.at.y / (large.there > 0.0 ? kLarge : kSmall) + 0.03 * fine.y);
     stone = mix(stone, silt, max(settled, 0.7 * sunk));
     bed = mix(bed, stone, large.there > 0.0 ? visible(0.5 * kLarge, at.footprint) : far);
   }
-  // The water's surface is level, but the sides of stones face the light or turn away from it.
+  // The shading uses the normals of the stones, because only the water's surface is level.
   vec3 facing = normalize(small.normal + 0.22 * vec3(fine.y, 0.0, fine.z) + 0.10 * vec3(mottle.y, 0.0, mottle.z));
   vec3 from = normalize(to_light + vec3(0.0, 1e-3, 0.0));
   float turned = dot(facing, from) / max(from.y, 0.35);
@@ -54,7 +55,7 @@ Surface water(Spot at) {
 }
 
 Surface vapour(Spot at) {
-  // The size depends on the footprint of a sample: billows of a cloud repeat at every visible scale.
+  // The size of the pattern depends on the footprint of a sample, because billows of vapour repeat at every scale.
   float size = max(at.footprint * 90.0, 0.5);
   float level = exp2(floor(log2(size)));
   Surface s = surfaceOf(at);

@@ -19,7 +19,7 @@ Surface granular(Spot at) {
 Surface windblown(Spot at) {
   Surface s = granular(at);
   float flat_share = smoothstep(0.80, 0.94, at.n.y);
-  const float kSoil = 0.3;  // darker colours are soil and mud, which the wind does not move
+  const float kSoil = 0.3;  // darker colours are soil or mud, which the wind does not move
   if (at.sheltered || flat_share <= 0.0 || at.colour.r < kSoil) return s;
   vec2 q = at.p.xz;
   vec4 broad = noise(vec3(q * 0.16, 31.0)), patches = noise(vec3(q * 0.9, 17.0));
@@ -57,7 +57,7 @@ Surface gravelly(Spot at) {
   Chart chart = chartOf(at.p, abs(at.n.y) > 0.6 ? vec3(0.0, 1.0, 0.0) : at.n);
   const float kLarge = 0.062, kSmall = 0.024;
   Surface s = granular(at);
-  // Water and wheels have sorted it: coarse in one place, fine in another, with dust in between.
+  // Stones are sorted by water and wheels: coarse in one place, fine in another, with dust in between.
   float sorted = noise(at.p * 0.43 + 3.0).x + 0.5 * noise(at.p * 1.3 + 12.0).x;
   float many = clamp(0.42 + 0.45 * sorted, 0.08, 0.85), strewn_small = clamp(0.95 + 0.75 * sorted, 0.35, 1.0);
   s.albedo *= 1.0 - 0.14 * clamp(sorted, -1.0, 1.0);
@@ -116,7 +116,7 @@ Surface grassy(Spot at) {
   return s;
 }
 
-// Foliage: leaves of a crown, each in a direction of its own.
+// Foliage of a tree's crown: each leaf has its own direction.
 Surface leafy(Spot at) {
   Surface s = surfaceOf(at);
   vec3 w = planeWeights(at.n);
@@ -143,7 +143,7 @@ Surface leafy(Spot at) {
 Surface fibrous(Spot at) {
   Surface s = surfaceOf(at);
   Chart chart = chartOf(at.p, at.n);
-  // Furrows are where a noise is zero: long lines that divide and join, with plates between them.
+  // Furrows are where a noise is zero, which gives long lines that divide and join, with plates between them.
   vec3 q = vec3(at.p.x * 16.0, at.p.y * 0.50, at.p.z * 16.0) + vec3(0.30, 0.06, 0.30) * noise(at.p * 3.1).yzw;
   vec4 ridge = noise(q), narrow = noise(q * 2.3 + 11.0), fine = noise(q * 7.1);
   float seen = visible(0.07, at.footprint), close = visible(0.03, at.footprint), grain = fine.x * visible(0.012, at.footprint);

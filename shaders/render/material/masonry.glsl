@@ -1,15 +1,16 @@
 // Surfaces made by masons, tilers and pavers.
 
-// Combines stones and mortar. joint: metres of mortar on each side of a block's edge; rough: how uneven the stones are.
+// Combines stones and mortar to a wall. joint: width of mortar in metres on each side of a block's edge; rough: how
+// uneven the stones are.
 Surface laid(Spot at, Block b, Chart chart, float joint, float size, vec3 stone, vec3 mortar, float tilt, float rough) {
   Surface s = surfaceOf(at);
   float seen = visible(0.5 * size, at.footprint);
-  // A joint thinner than a sample darkens the sample by its share.
+  // A joint thinner than a sample darkens the sample in proportion to its width.
   float blur = 0.5 * at.footprint;
   float gap = (1.0 - smoothstep(max(0.6 * joint - blur, 0.0), 1.3 * joint + blur, b.edge)) * min(1.0, joint / blur);
   float grain = fineNoise(at.p * 23.0, 0.04, at.footprint) + fineNoise(at.p * 71.0, 0.014, at.footprint);
   float broad = noise(at.p * 0.6).x;
-  // From far away, a wall has the mean colour of stones and mortar; joints are in shadow.
+  // From far away, a wall has the mean colour of stones and mortar; joints are darkened by shadow.
   float share = min(1.0, 1.5 * joint / size);
   vec3 mean = mix(stone, mortar, share);
   s.albedo = mix(mean, mix(stone, mortar, gap), seen) * (1.0 + 0.10 * grain + 0.13 * broad);
@@ -41,7 +42,8 @@ Surface brickwork(Spot at) {
   // Some bricks are darker, because one end was next to the fire.
   fired *= b.lot.z > 0.86 ? vec3(0.62, 0.66, 0.74) : vec3(1.0);
   vec3 mean = mix(at.colour, grey, 0.26) * 0.86;
-  // Where single bricks are too small to be visible, batches of different colour, courses and soot still are.
+  // Variation at larger scales, which is still visible where single bricks are too small: batches of different colour,
+  // courses and soot.
   vec2 load = chart.at / vec2(0.9, 0.3);
   float loads = fineNoise(vec3(load, dot(at.p, at.n) * 0.3), 0.15, at.footprint) +
                 0.8 * fineNoise(vec3(load * vec2(3.1, 2.3), 4.0), 0.06, at.footprint);
@@ -123,7 +125,8 @@ Surface cobbles(Spot at) {
   return s;
 }
 
-// Returns the difference in colour of a roof's parts: roofs are mended in pieces, and rows of different years differ.
+// Returns the colour variation between parts of a roof: roofs are mended in pieces, and rows from different years
+// differ.
 float mended(vec2 at, float footprint) {
   Block piece = blockAt(at, vec2(2.3, 0.95), 0.4, 0.8, 0.1);
   float row = random3(ivec3(int(floor(at.y / 0.33)), 71, 3)).x - 0.5;

@@ -1,8 +1,8 @@
 // Natural stone: beds, stains, cracks, flowstone.
 
 // Weathered basalt: dark and even; brown where its surface has weathered, browner and paler where people walk and water
-// runs. It has no beds and no sinter, but many small pits; joints divide its columns; and crusts of lichen grow on it,
-// most of all in the sun.
+// runs. It has no beds and no mineral deposits, but many small pits; joints divide its columns; and crusts of lichen
+// grow on it, most of all in the sun.
 Surface basaltic(Spot at) {
   vec3 p = at.p, n = at.n;
   float footprint = at.footprint;
@@ -15,7 +15,7 @@ Surface basaltic(Spot at) {
   float weathered = smoothstep(-0.35, 0.55, patches.y + 0.45 * broad.y + 0.35 * mottle.y + 0.2 * fine);
   albedo = mix(albedo, skin * (1.0 + 0.16 * fine + 0.22 * grain), weathered * mix(0.42, 0.72, top));
 
-  // Ball joints divide a column into drums of unequal height; their seams are thin, and chipped in places.
+  // Cross joints divide a column into drums of unequal height. Their seams are thin, and chipped in places.
   float wall = 1.0 - smoothstep(0.35, 0.65, abs(n.y)), seam = 0.0;
   if (wall > 0.0) {
     vec3 drum = floor(p / vec3(0.47, 100.0, 0.41) + 0.35 * patches.yxw * vec3(1.0, 0.0, 1.0));
@@ -51,7 +51,7 @@ Surface basaltic(Spot at) {
 }
 
 Surface rock(Spot at) {
-  const float kDarkest = 0.16;  // darker rock is basalt
+  const float kDarkest = 0.16;  // rock darker than this is basalt
   if (max(at.colour.r, max(at.colour.g, at.colour.b)) < kDarkest) return basaltic(at);
   vec3 p = at.p, n = at.n;
   float footprint = at.footprint;
@@ -61,7 +61,7 @@ Surface rock(Spot at) {
   float grain = fineNoise(p * 11.0, 0.09, footprint) + 0.7 * fineNoise(p * 37.0, 0.027, footprint) +
                 0.6 * fineNoise(p * 131.0, 0.0076, footprint);
 
-  // Beds are nearly level and gently folded; some are pale, some contain iron.
+  // Beds (layers of the rock) are nearly level and gently folded; some are pale, some contain iron.
   float height = p.y + 1.6 * broad.x + 0.30 * patches.x + 0.05 * mottle.x;
   float bed = noise(vec3(height * 0.55, 3.0, broad.y)).x;
   float wall = 1.0 - smoothstep(0.55, 0.9, abs(n.y));
@@ -73,7 +73,7 @@ Surface rock(Spot at) {
   albedo = mix(albedo, iron, 0.55 * smoothstep(0.05, 0.65, -bed + 0.35 * patches.x));
   albedo *= 1.0 + 0.13 * lamina * wall + 0.16 * grain + 0.12 * mottle.x;
 
-  // Water runs down walls: it leaves thin dark films, and pale sinter where it has dried.
+  // Water runs down walls: it leaves thin dark films, and pale deposits of minerals where it has dried.
   vec3 run = vec3(p.x * 1.1, p.y * 0.11, p.z * 1.1) + 0.5 * vec3(patches.y, 0.0, mottle.x);
   float streak = 0.0;
   if (wall > 0.0) streak = noise(run + 70.0).x + 0.5 * noise(run * vec3(2.7, 1.7, 2.7) + 31.0).x;
@@ -95,7 +95,7 @@ Surface rock(Spot at) {
   // Silt, clay and small stones cover surfaces that are flat enough.
   float floor_cover = smoothstep(0.70, 0.92, n.y + 0.18 * patches.x + 0.08 * mottle.x);
   vec3 silt = mix(vec3(0.27, 0.20, 0.135), at.colour * 0.7, 0.45) * (1.0 + 0.22 * grain + 0.2 * mottle.x);
-  float settled = at.sheltered ? 1.0 : 0.4;  // rain washes silt away
+  float settled = at.sheltered ? 1.0 : 0.4;  // share of silt that stays; outdoors, rain washes most of it away
   albedo = mix(albedo, silt, 0.7 * settled * floor_cover);
   float mud = 0.0;
   if (floor_cover > 0.0 && at.sheltered) {
@@ -126,11 +126,11 @@ Surface rock(Spot at) {
     mud *= 1.0 - shown;
   }
 
-  // The geometry contains all that is larger than a step; the relief begins at that size.
+  // The mesh contains all detail larger than a step, so the relief starts at that size.
   vec4 relief_slope = relief(p, 0.36, 7, 2, footprint);
   vec3 slope = relief_slope.xyz;
   slope.y += wall * 0.4 * lamina;
-  // Faces that broke along a joint are smooth, others are rough.
+  // Faces of the rock that broke along a joint are smooth, others are rough.
   slope *= mix(0.55, 1.10, smoothstep(-0.35, 0.45, patches.z + 0.6 * broad.z));
   slope *= mix(1.0, mix(0.55, 0.30, mud), floor_cover);
   slope += strewn / (0.34 * max(at.relief, 0.3));
@@ -182,7 +182,7 @@ Surface veined(Spot at) {
   return s;
 }
 
-// Calcite, which water has deposited film by film; also ice.
+// Flowstone: calcite that water has deposited in thin films; also used for ice.
 Surface flowstone(Spot at) {
   vec3 p = at.p, n = at.n;
   float footprint = at.footprint;
@@ -193,7 +193,7 @@ Surface flowstone(Spot at) {
   float fluted = visible(0.14, footprint) * wall;
   vec4 flute = fluted > 0.0 ? noise(run) * fluted : vec4(0.0);
   float stripe = noise(run * vec3(0.45, 0.8, 0.45) + 33.0).x;
-  // Films that dry leave bands of unequal width, which are interrupted where the water has changed its path.
+  // Films that have dried leave bands of unequal width. They are interrupted where the water has changed its path.
   float band = 0.0;
   if (wall > 0.0) {
     vec3 bands = vec3(p.x * 0.7, p.y * 11.0 + 2.5 * broad.x + 0.8 * patches.x, p.z * 0.7);
@@ -244,7 +244,7 @@ Surface lava(Spot at) {
   albedo = mix(albedo, vec3(0.098, 0.062, 0.048) * (1.0 + 0.2 * fine + 0.3 * grain), 0.30 * rust);
   float glaze = smoothstep(0.20, 0.50, patches.y + 0.4 * broad.y + 0.30 * mottle.z) * (1.0 - floor_share);
   albedo *= mix(vec3(1.0), vec3(0.72, 0.72, 0.76), glaze);
-  // Salts are on bubbles and ledges, in specks that grow together.
+  // Salts cover bubbles and ledges, in specks that grow together.
   float salt = smoothstep(0.30, 0.75, noise(p * 0.9 + 71.0).x + 0.30 * patches.w + 0.28 * mottle.w + 0.22 * fine + 0.22 * grain);
   albedo = mix(albedo, vec3(0.22, 0.212, 0.195) * (1.0 + 0.2 * grain), 0.30 * salt * (1.0 - 0.6 * floor_share));
   // Level lines where the flow stood: thin, paler above and darker below, interrupted in places.

@@ -1,4 +1,4 @@
-// The appearance of a surface at a point, and functions that all patterns use.
+// The appearance of a surface at a point, and functions that all surface patterns use.
 
 struct Surface {
   vec3 albedo;
@@ -6,11 +6,11 @@ struct Surface {
   float roughness;
   float specular;      // reflectance at normal incidence
   float translucency;  // how far light wraps around the surface, 0..1
-  vec3 within;         // light that comes through the surface from behind it
-  vec3 clear;          // share of what lies behind the surface that is visible, 0..1
+  vec3 within;         // light that is transmitted through the surface from behind it
+  vec3 clear;          // transmittance: share of the light from behind the surface that is visible, 0..1
 };
 
-// The input of a pattern: a point on the surface of a body, in metres from the patterns' origin.
+// The input of a pattern: a point on a surface, in metres from the patterns' origin.
 struct Spot {
   vec3 p;
   vec3 n;
@@ -21,7 +21,8 @@ struct Spot {
   float footprint;  // width in metres that a sample covers
   float wet;        // 1 at the border of standing water, 0 away from it
   float depth;      // depth under water in metres
-  vec3 light;       // direction from which most light comes; its length, 0..1, is the share of light from there
+  vec3 light;       // direction from which most light comes; its length, 0..1, is the share of light from this
+                    // direction
   bool sheltered;   // true if no rain reaches the point
 };
 
@@ -37,19 +38,20 @@ Surface surfaceOf(Spot at) {
   return s;
 }
 
-// Returns the weight of detail of this size if one sample covers `footprint` metres: 0 before the detail would flicker.
+// Returns the weight of detail of this size, 0..1. It becomes 0 before detail that is small compared with a sample's
+// footprint (in metres) would flicker.
 float visible(float size, float footprint) { return clamp(size / (2.0 * footprint) - 1.0, 0.0, 1.0); }
 
-// Noise with details of this size; it is computed only if they are visible.
+// Returns noise with details of this size in metres; 0 if they are too small to be visible.
 float fineNoise(vec3 p, float size, float footprint) {
   float seen = visible(size, footprint);
   return seen > 0.0 ? seen * plainNoise(p) : 0.0;
 }
 
-// Returns the slope of a relief that consists of octaves from `period` metres down. The first `ridged` octaves have
-// sharp crests, as broken rock has. w: variance of the slopes that are too fine to be visible.
+// Returns the slope of a relief with octaves of noise, the largest with wavelength `period` in metres. The first
+// `ridged` octaves have sharp crests, like broken rock. w: variance of the slopes that are too fine to be visible.
 vec4 relief(vec3 p, float period, int octaves, int ridged, float footprint) {
-  const float kVariance = 0.5;  // variance of the slopes of one octave along the surface
+  const float kVariance = 0.5;  // variance of the slope of one octave along the surface
   vec4 slope = vec4(0.0);
   float strength = 1.0;
   for (int i = 0; i < octaves; ++i) {
@@ -65,14 +67,15 @@ vec4 relief(vec3 p, float period, int octaves, int ridged, float footprint) {
   return slope;
 }
 
-// Returns the roughness including relief that is too fine to be visible (after Olano and Baker, "LEAN mapping"), which
-// spreads a highlight as roughness does. Otherwise everything far away would look like a mirror.
+// Returns the roughness including relief that is too fine to be visible, which widens a highlight like roughness (after
+// Olano and Baker, "LEAN mapping"). Otherwise distant surfaces would look like mirrors.
 float roughened(float roughness, float variance) {
   float a = roughness * roughness;
   return sqrt(sqrt(min(1.0, a * a + 2.0 * variance)));
 }
 
-// Returns the normal of a relief at a visible point, turned towards the eye: parts that face away are hidden by others.
+// Returns the normal of a relief at a visible point, limited to directions that face the eye, because parts that face
+// away would be hidden.
 vec3 turnedTo(vec3 to_eye, vec3 normal, vec3 n) {
   float least = 0.3 * max(dot(n, to_eye), 0.0), facing = dot(normal, to_eye);
   return facing >= least ? normal : normalize(normal + to_eye * (least - facing));
@@ -80,7 +83,7 @@ vec3 turnedTo(vec3 to_eye, vec3 normal, vec3 n) {
 
 vec3 bend(vec3 normal, vec3 slope, float strength) {
   vec3 along = slope - normal * dot(normal, slope);
-  // Slopes beyond about 60 degrees would face away from every lamp and look like black specks, so they are limited.
+  // Slopes are limited to about 60 degrees: steeper ones would face away from every lamp and look like black specks.
   along *= strength;
   return normalize(normal - along * inversesqrt(1.0 + 0.35 * dot(along, along)));
 }
@@ -90,7 +93,7 @@ vec3 planeWeights(vec3 n) {
   return w / (w.x + w.y + w.z);
 }
 
-// Returns the depth of cracks, 0..1: projected along the three axes, and blended by the normal.
+// Returns the depth of cracks, 0..1, by triplanar projection: along the three axes, blended by the normal.
 float cracks(vec3 p, vec3 n, float size, float width, float footprint) {
   float w = visible(width * 3.0, footprint);
   if (w <= 0.0) return 0.0;
@@ -103,10 +106,10 @@ float cracks(vec3 p, vec3 n, float size, float width, float footprint) {
   return depth * w;
 }
 
-// A wall unrolled into a plane: metres along its level direction, and up its slope. Courses depend on height alone, so
-// that they meet at corners and are continuous on curved walls, ribs and vaults. The level direction changes in steps,
-// so that the drum of a column or a round tower shows whole faces of stones. On leaning surfaces, the height of courses
-// changes in steps, too.
+// Coordinates on a wall: metres along its level direction, and up its slope. The height of courses of stones depends on
+// world height alone, so that they meet at corners and are continuous on curved walls, ribs and vaults. The level
+// direction changes in steps, so that round columns and towers show whole faces of stones. On leaning surfaces, the
+// height of courses also changes in steps.
 struct Chart {
   vec2 at;
   vec3 along;
@@ -122,7 +125,8 @@ Chart chartOf(vec3 p, vec3 n) {
     c.at = p.xz;
     return c;
   }
-  // 0.56 instead of 0.5: the faces of an octagon turned by half an angle would alternate between two steps.
+  // An offset of 0.56 instead of 0.5: otherwise the faces of an octagon turned by half a step would lie exactly between
+  // two steps, and alternate.
   const float kStep = 6.2831853 / 8.0;
   float turn = floor(atan(n.z, n.x) / kStep + 0.56) * kStep;
   vec3 out_of = vec3(cos(turn), 0.0, sin(turn));
@@ -133,16 +137,16 @@ Chart chartOf(vec3 p, vec3 n) {
   return c;
 }
 
-// A block of masonry at a point of a chart.
+// A block of masonry, seen from a point of a chart.
 struct Block {
   vec3 lot;     // random numbers of the block
-  vec2 within;  // metres from its middle
-  float edge;   // distance in metres to its nearest edge
-  vec2 tilt;    // slope of its rounded edges, along the wall and up
+  vec2 within;  // position of the point, in metres from the block's middle
+  float edge;   // distance in metres from the point to the block's nearest edge
+  vec2 tilt;    // slope of the block's rounded edges, along the wall and up
 };
 
-// Returns the block of masonry at a point: courses of blocks of `size` metres, each course shifted by `shift` blocks.
-// vary: variation of lengths within a course, 0..0.5.
+// Returns the block of masonry at a point. The blocks of `size` metres are in courses, each shifted by `shift` blocks.
+// vary: relative variation of lengths within a course, 0..0.5.
 Block blockAt(vec2 at, vec2 size, float shift, float vary, float round_edge) {
   float course = floor(at.y / size.y);
   vec3 course_lot = random3(ivec3(int(course), 17, 3));
@@ -164,7 +168,8 @@ Block blockAt(vec2 at, vec2 size, float shift, float vary, float round_edge) {
   return b;
 }
 
-// Returns a cell of an irregular pattern, about `size` metres wide: rubble, leaves, pebbles.
+// Returns the cell at a point of an irregular (Voronoi) pattern, with cells about `size` metres wide: rubble, leaves,
+// pebbles.
 Block cellAt(vec2 at, float size, float round_edge, int seed) {
   vec2 q = at / size, cell = floor(q), f = q - cell;
   ivec2 i = ivec2(cell), chosen = i;
@@ -195,8 +200,8 @@ Block cellAt(vec2 at, float size, float round_edge, int seed) {
   return b;
 }
 
-// Returns a stone of a pavement that was laid in rows by eye, about `size` metres wide. Sizes differ, corners are
-// rounded, and rows waver. loose: how far a stone may be from its regular position, 0..0.5.
+// Returns the paving stone at a point; stones are about `size` metres wide, and laid in uneven rows. Sizes differ,
+// corners are rounded, and rows waver. loose: maximum deviation of a stone from its regular position, 0..0.5.
 Block settAt(vec2 at, vec2 size, float loose, float round_edge, int seed) {
   vec2 q = at / size;
   int row = int(floor(q.y));
@@ -210,7 +215,7 @@ Block settAt(vec2 at, vec2 size, float loose, float round_edge, int seed) {
     int column = int(floor(q.x - shift)) + i % 3 - 1;
     cells[i] = ivec2(column, r);
     vec2 off = loose * vec2(1.0, 0.6) * (2.0 * random3(ivec3(column, r, seed)).xy - 1.0);
-    // stretched, so that stones of one row are nearest
+    // vertical distances are enlarged, so that the nearest stones are those of the same row
     mids[i] = (vec2(float(column) + shift, float(r)) + 0.5 + off - q) * size * vec2(1.0, 1.5);
     float l = dot(mids[i], mids[i]);
     if (l < best) { best = l; chosen = i; }
@@ -233,12 +238,12 @@ Block settAt(vec2 at, vec2 size, float loose, float round_edge, int seed) {
   return b;
 }
 
-// A stone of a layer of stones strewn over a plane: a rotated ellipsoid in a cell of its own. The layer's axes are x
+// A stone in a layer of stones strewn over a plane: a rotated ellipsoid in its own grid cell. The layer's axes are x
 // and z along the plane, and y out of it.
 struct Stone {
   vec3 middle;  // position in metres
-  vec3 radii;   // in metres; 0 in a cell without a stone
-  vec2 turn;    // cosine and sine of its rotation
+  vec3 radii;   // radii in metres; 0 in a cell without a stone
+  vec2 turn;    // cosine and sine of the stone's rotation
   vec3 lot;     // random numbers of the stone
 };
 
@@ -254,26 +259,26 @@ Stone stoneIn(ivec2 cell, float size, float many, int seed) {
   return s;
 }
 
-// Converts a vector to axes in which the stone is a ball of radius 1.
+// Converts a vector to axes in which the stone is a unit ball.
 vec3 inStone(Stone s, vec3 v) {
   return vec3(s.turn.x * v.x + s.turn.y * v.z, v.y, s.turn.x * v.z - s.turn.y * v.x) / s.radii;
 }
 
-// What is visible of a layer of stones.
+// The visible stone of a layer of stones, if any.
 struct Strewn {
-  float there;  // 1 if a stone is visible
-  vec3 at;      // position in metres, in the layer's axes
-  vec3 normal;  // of length 1, in the layer's axes
+  float there;  // 1 if a stone is visible, otherwise 0
+  vec3 at;      // visible point in metres, in the layer's axes
+  vec3 normal;  // unit normal at the visible point, in the layer's axes
   vec3 lot;     // random numbers of the stone
   ivec2 cell;
 };
 
-// Returns the stone that is hit first by a ray from the eye which would hit the plane at `at`. way: the ray's direction
-// in the layer's axes; size: distance between stones in metres; many: share of cells that have a stone.
+// Returns the stone that a ray from the eye hits first. at: point where the ray would hit the plane; way: direction of
+// the ray in the layer's axes; size: distance between stones in metres; many: share of grid cells that have a stone.
 Strewn strewnAt(vec2 at, vec3 way, float size, float many, int seed) {
   vec3 base = vec3(at.x, 0.0, at.y);
-  // The ray is made steeper: along a flat ray, stones would hide each other in long rows, which the few cells searched
-  // here do not contain.
+  // The ray is made steeper: along a flat ray, long rows of stones would hide each other, but only a few cells are
+  // searched.
   vec3 ray = normalize(vec3(way.x, min(way.y, -0.4), way.z));
   Strewn found = Strewn(0.0, base, vec3(0.0, 1.0, 0.0), vec3(0.5), ivec2(1 << 20));
   ivec2 middle = ivec2(floor((at - ray.xz / -ray.y * (0.16 * size)) / size));
@@ -295,8 +300,7 @@ Strewn strewnAt(vec2 at, vec3 way, float size, float many, int seed) {
   return found;
 }
 
-// Returns how much of the light from a direction reaches a point among the stones (x), and how open it is to all sides
-// (y).
+// Returns, for a point among the stones, how much light from a direction reaches it (x), and its ambient openness (y).
 vec2 lightAmong(Strewn seen, vec3 to_light, float size, float many, int seed) {
   vec3 l = normalize(vec3(to_light.x, max(to_light.y, 0.25), to_light.z));
   ivec2 middle = ivec2(floor((seen.at.xz + 0.25 * size * l.xz / l.y) / size));

@@ -1,7 +1,7 @@
 // Materials that people spread, pour, saw or roll: even, never rocky.
 
-// Plaster, paint, clay: a colour with fine grain, broad stains, and streaks where rain runs. Plaster was mended in
-// patches, and has cracks as fine as hairs.
+// Plaster, paint, clay: a colour with fine grain, broad stains, and streaks where rain runs. Plaster has mended patches
+// and hairline cracks.
 Surface plain(Spot at) {
   Surface s = surfaceOf(at);
   float broad = noise(at.p * 0.45).x + 0.5 * noise(at.p * 1.9 + 7.0).x;
@@ -16,7 +16,7 @@ Surface plain(Spot at) {
     float hair = cracks(at.p + 0.10 * noise(at.p * 1.9).yzw + 0.02 * noise(at.p * 11.0).yzw, at.n, 2.3, 0.004, 0.3 * at.footprint);
     s.albedo *= 1.0 - 0.34 * hair * smoothstep(0.0, 0.4, noise(at.p * 0.5 + 70.0).x);
   }
-  // A float leaves broad, shallow strokes in plaster; sand gives it grain.
+  // A plasterer's float leaves broad, shallow strokes; sand makes the plaster grainy.
   vec4 strokes = relief(at.p * vec3(1.0, 1.6, 1.0), 0.30, 2, 0, at.footprint), fine = relief(at.p, 0.012, 2, 0, at.footprint);
   s.normal = bend(at.n, strokes.xyz + 0.9 * fine.xyz, 0.016 * at.relief);
   wetten(s, at.wet);
@@ -24,7 +24,7 @@ Surface plain(Spot at) {
   return s;
 }
 
-// Cast concrete: panels, holes of the formwork's ties, pores, stains.
+// Cast concrete: panels, holes of the formwork's tie rods, pores, stains.
 Surface concrete(Spot at) {
   Chart chart = chartOf(at.p, at.n);
   Block b = blockAt(chart.at, vec2(2.4, 1.2), 0.0, 0.0, 0.01);
@@ -37,8 +37,8 @@ Surface concrete(Spot at) {
   return s;
 }
 
-// Wood with grain along an axis of length 1: bands, cracks where it has dried, knots, and dents of the tool that shaped
-// it. lot: random numbers of the piece, so that boards differ.
+// Wood with grain along an axis (a unit vector): bands, drying cracks, knots, and dents of the tool that shaped it.
+// lot: random numbers of the piece, so that boards differ.
 Surface grained(Spot at, vec3 axis, vec3 lot) {
   float along = dot(at.p, axis);
   vec3 across = at.p - along * axis;
@@ -69,20 +69,20 @@ Surface grained(Spot at, vec3 axis, vec3 lot) {
   return s;
 }
 
-// Posts, and everything made of one piece. The grain runs up walls and along floors.
+// Wooden posts, and anything made of one piece of wood. The grain runs up walls and along floors.
 Surface wooden(Spot at) {
   return grained(at, length(at.n.xz) < 0.28 ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0), vec3(0.5));
 }
 
-// Horizontal beams, planks and logs, whose grain is horizontal, too. Directions change in steps, because positions far
-// from the origin are inexact.
+// Horizontal wooden beams, planks and logs, with horizontal grain. The direction of the grain is quantised, because
+// positions far from the origin are inexact.
 Surface lying(Spot at) {
   const float kStep = 3.14159265 / 12.0;
   float turn = length(at.n.xz) < 0.06 ? 0.0 : floor(atan(at.n.x, -at.n.z) / kStep + 0.5) * kStep;
   return grained(at, vec3(cos(turn), 0.0, sin(turn)), vec3(0.5));
 }
 
-// Boards side by side.
+// Wooden boards side by side.
 Surface boarded(Spot at) {
   Chart chart = chartOf(at.p, at.n);
   float board = chart.at.x / 0.14, edge = 0.14 * min(fract(board), 1.0 - fract(board));
@@ -91,7 +91,7 @@ Surface boarded(Spot at) {
   return s;
 }
 
-// Metal in use: dull, with rust where the relief parameter says that it is neglected.
+// Used metal: dull, with rust if the relief parameter says that the metal is neglected.
 Surface metallic(Spot at) {
   Surface s = surfaceOf(at);
   float broad = noise(at.p * 1.1).x, fine = fineNoise(at.p * 23.0, 0.04, at.footprint);
@@ -106,7 +106,7 @@ Surface metallic(Spot at) {
   return s;
 }
 
-// Asphalt: tar with chips of stone, which wheels have exposed in places; it has sunk, cracked and been sealed.
+// Asphalt: tar with chips of stone, which wheels have exposed in places; with sunken areas, cracks and sealed cracks.
 Surface asphalt(Spot at) {
   Surface s = surfaceOf(at);
   float broad = noise(at.p * 0.35).x + 0.4 * noise(at.p * 1.6).x;
@@ -132,16 +132,16 @@ Surface asphalt(Spot at) {
   return s;
 }
 
-// The colour of clear glass in the table of materials (runtime/tools/materials/material.cpp).
+// The colour of clear glass, the same as in the table of materials (runtime/tools/materials/material.cpp).
 const vec3 kClearGlass = vec3(0.22, 0.30, 0.33);
 
-// What a ray hits in a room behind a pane. The room is computed from the ray alone and has no geometry (van Dongen,
-// "Interior mapping", 2008).
+// The point that a ray hits in a room behind a window pane. The room is computed from the ray alone and has no geometry
+// (van Dongen, "Interior mapping", 2008).
 struct Room {
-  vec2 from;   // where the ray enters, in metres from the room's lower left corner
+  vec2 from;   // point where the ray enters, in metres from the room's lower left corner
   vec3 way;    // direction of the ray: along the wall, up, and into the room
-  vec3 hit;    // where it ends, in metres from that corner; z: distance from the pane
-  float side;  // what it hits: 0 a side wall, 1 the floor, 2 the ceiling, 3 the back wall
+  vec3 hit;    // point where the ray ends, in metres from the room's lower left corner; z: distance from the pane
+  float side;  // part of the room that the ray hits: 0 a side wall, 1 the floor, 2 the ceiling, 3 the back wall
   vec3 lot;    // random numbers of the room
 };
 
@@ -165,14 +165,14 @@ Room roomBehind(Spot at, vec3 size, int seed) {
 // Returns where a ray into a room crosses the vertical plane `deep` metres behind the pane.
 vec2 atDepth(Room r, float deep) { return r.from + r.way.xy * (deep / r.way.z); }
 
-// Returns 1 inside a box around `middle`; the border is softened by the footprint of a sample.
+// Returns 1 inside a rectangle around `middle`, 0 outside; the border is softened by the footprint of a sample.
 float inBox(vec2 p, vec2 middle, vec2 half_size, float footprint) {
   vec2 out_of = abs(p - middle) - half_size;
   return 1.0 - smoothstep(-0.5 * footprint - 0.004, 0.5 * footprint + 0.004, max(out_of.x, out_of.y));
 }
 
-// A room of a dwelling. Daylight comes only through the window: by day rooms are dark, some more than others, and in a
-// few of them a lamp is on.
+// A room of a home. Daylight comes only through the window: by day rooms are dark, some more than others, and in a few
+// of them a lamp is on.
 vec3 dwelling(Spot at) {
   Room r = roomBehind(at, vec3(3.6, 3.0, 4.2), 77);
   vec3 paint = mix(vec3(0.36, 0.32, 0.27), vec3(0.24, 0.26, 0.28), r.lot.x);
@@ -261,7 +261,8 @@ vec3 shop(Spot at) {
   return 0.62 * seen;
 }
 
-// A pane and what is behind it: see kClearPane and the following constants. Tinted glass hides what is behind it.
+// A pane of glass and the room behind it; kClearPane and the constants after it select the kind of room. Tinted glass
+// hides the room.
 Surface glazed(Spot at) {
   Surface s = surfaceOf(at);
   s.roughness = 0.04;
@@ -275,7 +276,7 @@ Surface glazed(Spot at) {
   } else if (behind == kOfficeBehind) {
     s.within = office(at);
   } else if (behind == kCurtainBehind) {
-    // Curtains hang in folds, wide and narrow; a pane absorbs some of the light that goes in and out.
+    // Curtains hang in wide and narrow folds. The pane absorbs some of the light that passes in and out.
     Chart chart = chartOf(at.p, at.n);
     float x = chart.at.x + 0.02 * sin(1.7 * chart.at.y + 9.0 * chart.at.x);
     float fold = sin(47.0 * x + 2.0 * sin(11.0 * x)) + 0.5 * sin(113.0 * x + 1.0);
@@ -341,8 +342,8 @@ Surface leaded(Spot at) {
   return s;
 }
 
-// Something that emits light. A flame behind a pane is brightest in the middle; towards the border, the pane itself is
-// visible: hot, coloured, and sooty in streaks.
+// A glowing surface. A flame behind a pane is brightest in the middle; towards the border, the pane itself is visible:
+// hot, coloured, and sooty in streaks.
 Surface glowing(Spot at) {
   Surface s = surfaceOf(at);
   float facing = max(dot(at.n, at.to_eye), 0.0);
