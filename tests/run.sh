@@ -63,13 +63,14 @@ modules=$(grep -l sgm_unit_test tests/*/CMakeLists.txt tests/unit/*/CMakeLists.t
 [[ " ${without[*]-} " == *" vulkan "* ]] || export SGM_REQUIRE_VULKAN=1
 [[ $jobs =~ ^[1-9][0-9]*$ ]] || die "--jobs needs a number, not '$jobs'" 2
 
-# Paths within the checkout are hashed as relative ones, so that a clone elsewhere finds compiled objects in the cache.
+# Make ccache hash paths within the checkout as relative paths, so that a clone in another folder finds the compiled
+# objects in the cache.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
 
 started=$SECONDS
 step() { printf '\n== %s (after %d s)\n' "$1" $((SECONDS - started)); }
 
-# build PRESET [TARGET]: builds; prints the whole log only if the build failed.
+# build PRESET [TARGET]: builds the preset; prints the log only if the build fails.
 build() {
   step "build $1"
   local log=build/$1.configure.log options=() target=()
@@ -95,7 +96,7 @@ if [[ $tier == quick ]]; then
   ctest --test-dir build/release --output-on-failure --no-tests=error --no-label-summary --timeout "$timeout" -j "$jobs" \
     -L "^$label\$" </dev/null || status=$?
   if [[ -z $module ]]; then
-    # One script in the real engine, where it is at hand.
+    # If Godot is installed, runs one script in it.
     if bash editor_plugin/get_godot.sh --no-download >/dev/null 2>&1; then
       step "the Godot plugin"
       bash editor_plugin/build.sh && bash editor_plugin/tests/run.sh headless/grammars || status=1
@@ -126,7 +127,7 @@ for name in ${without[@]+"${without[@]}"}; do
 done
 for preset in "${chosen[@]}"; do build "$preset"; done
 
-# One ctest runs the tests of all builds, so that its summary and exit status cover all of them.
+# A single ctest runs the tests of all builds, so that its summary and exit status cover all of them.
 mkdir -p build/all
 {
   for preset in "${chosen[@]}"; do echo "subdirs(\"$root/build/$preset\")"; done
@@ -146,7 +147,8 @@ filter=()
 ((${#labels[@]})) && filter+=(-L "$(joined "${labels[@]}" left_out)")
 ((${#left_out_labels[@]})) && filter+=(-LE "$(joined "${left_out_labels[@]}")")
 for name in ${without[@]+"${without[@]}"}; do echo "LEFT OUT by --without: $name"; done
-# A missing device or tool makes a test fail instead of being skipped, since the setup above has installed all of them.
+# Tests must fail rather than be skipped if a device or tool is missing, since the setup above has installed all of
+# them.
 export SGM_REQUIRE_ALL=1
 ctest --test-dir build/all --output-on-failure --no-tests=error --no-label-summary --timeout "$timeout" -j "$jobs" \
   ${filter[@]+"${filter[@]}"} </dev/null

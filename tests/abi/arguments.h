@@ -1,9 +1,9 @@
 #pragma once
-// Wrong arguments: what every function refuses.
+// Helpers that check how functions of the C interface reject invalid arguments.
 
 #include "fixture.h"
 
-/// A runtime with a ball's field.
+/// A runtime with a field that contains one ball.
 struct World {
   RuntimeOwner runtime = makeRuntime();
   GrammarOwner grammar = compile(runtime.get(), kBall);
@@ -12,7 +12,7 @@ struct World {
 
 inline sgm_chain extension = {sizeof(sgm_chain), 1, nullptr};
 
-/// A struct that is too small, too large, or continued by an extension that no version knows.
+/// Checks that `call` rejects a struct of a wrong size, a struct with an unknown extension, and NULL.
 template <class Desc, class Call>
 void checkStruct(Desc good, Call&& call) {
   for (const uint32_t size : {0u, 4u, good.struct_size - 1, good.struct_size + 8, 0xFFFFFFFFu}) {

@@ -1,5 +1,5 @@
 #pragma once
-// An engine that provides its CUDA context to the library, on a simulated GPU.
+// A test engine that provides its CUDA context to the library, on a simulated GPU.
 
 #include <dlfcn.h>
 #include <sgm/sgm_cuda.h>
@@ -8,9 +8,9 @@
 #include "cuda/fake_gpu.h"
 #include "fixture.h"
 
-/// The simulated GPU of the libcuda.so.1 that this process has loaded.
+/// Returns the state of the simulated GPU in the libcuda.so.1 that this process has loaded.
 inline sgm::cuda::FakeState& pretendedGpu() {
-  // The simulated GPU is created when it is first requested.
+  // openDriver() loads the simulated driver, whose GPU is created when it is first requested.
   REQUIRE(sgm::cuda::openDriver());
   void* const library = dlopen("libcuda.so.1", RTLD_NOW | RTLD_NOLOAD);
   REQUIRE(library != nullptr);
@@ -19,7 +19,7 @@ inline sgm::cuda::FakeState& pretendedGpu() {
   return *state();
 }
 
-/// The engine: owns a CUDA context and optionally a stream, and describes them to the library.
+/// The test engine: owns a CUDA context and optionally a stream, and describes them to the library.
 class CudaLender {
  public:
   explicit CudaLender(bool with_stream = false) {

@@ -9,7 +9,7 @@
 
 namespace {
 
-/// A fog with one large ball and smaller balls, which coarse levels omit.
+/// A fog with one large ball, and smaller balls that coarse levels omit.
 constexpr const char* kFog =
     "sgm 1; units m; domain infinite axes xz output density edge 2m;\nlayer main cell 16m reach 8m { start Puff; }\n"
     "rule Puff { at(8m, 8m, 8m) { sphere(4m); detail 1m { at(4m, 0m, 0m) sphere(2m); } } }";
@@ -27,7 +27,7 @@ sgm_density_desc volume(sgm_density_format format, void* values) {
   return desc;
 }
 
-/// The formula of sgm_density_desc, computed from the samples of all points.
+/// Computes the expected densities from the samples of all points by the formula that sgm_density_desc documents.
 std::vector<float> expected(sgm_field* field, double edge_metres, double cell_units, int32_t level) {
   std::vector<int32_t> points;
   for (uint32_t i = 0; i < kPoints * kPoints * kPoints; ++i) {

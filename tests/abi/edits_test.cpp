@@ -1,4 +1,4 @@
-// Tests edits, colliders and data that outlast a world, through the C interface alone.
+// Tests edits, colliders and data that outlive a world, through the C interface alone.
 
 #include <cmath>
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace {
 
-/// Solid rock: any void in it was dug.
+/// A world of solid rock: any void in it comes from an edit.
 constexpr const char* kRock =
     "sgm 1; units m; domain infinite solid;\nlayer l cell 32m reach 8m { start Ball; }\n"
     "rule Ball { at(8m, 8m, 8m) cut sphere(5m); }\n";
 
 using Key = std::tuple<int32_t, int32_t, int32_t, int32_t>;
 
-/// Records the world's events, and releases their meshes.
+/// An engine that records the world's events, and releases the meshes in them.
 struct Engine {
   ~Engine() {
     for (const auto& [key, mesh] : meshes) sgm_mesh_release(mesh);
@@ -50,7 +50,7 @@ struct Engine {
   std::map<Key, sgm_collider*> colliders;
 };
 
-/// A world that is looked at from its origin.
+/// Makes a world with a viewer at its origin.
 WorldOwner makeViewedWorld(sgm_field* field, const sgm_world_desc& desc = smallWorld()) {
   WorldOwner world = makeWorld(field, desc);
   look(world.get(), 0);
@@ -141,7 +141,7 @@ TEST_CASE("a dig is drawn, collided with and asked about, and its undo takes all
   CHECK(hit.inside == 0);
   CHECK(std::abs(hit.distance - 3) < 0.01);
   REQUIRE(sgm_field_ray_cast(field.get(), &ray, &hit, nullptr) == SGM_OK);
-  CHECK(hit.inside == 1);  // the field itself is unchanged
+  CHECK(hit.inside == 1);  // edits change the world only: the field is still solid at this point
 
   settle(world.get(), engine);
   CHECK(statsOf(world.get()).edits == 1);
@@ -229,9 +229,10 @@ TEST_CASE("a journal and a folder of chunks outlast the world", "[threads]") {
     if (SGM_TEST_DISK_CACHE) CHECK((statsOf(world.get()).cache_hits > 0) == again);
     sgm_error error = SGM_ERROR_INIT;
     sgm_world* second = nullptr;
-    CHECK(sgm_world_create(field.get(), &desc, &second, &error) == SGM_ERR_LIMIT);  // the journal is in use
+    CHECK(sgm_world_create(field.get(), &desc, &second, &error) == SGM_ERR_LIMIT);  // creation fails: the first world
+                                                                                    // still uses the journal
   }
-  // A journal belongs to one world: with another seed it is refused.
+  // A journal belongs to one world: a world with another seed is refused.
   const RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar = compile(runtime.get(), kRock);
   sgm_field_desc of = SGM_FIELD_DESC_INIT;

@@ -32,7 +32,7 @@ constexpr const char* kCavedRock =
     "sgm 1; units m; domain infinite solid;\nlayer l cell 32m reach 8m { start Ball; }\n"
     "rule Ball { at(8m, 8m, 8m) cut sphere(5m); }\n";
 
-/// An allocator that counts, and can be made to fail; and a log.
+/// An allocator that counts allocations and can be made to fail, and a log that stores messages.
 struct Watch {
   std::atomic<int64_t> blocks{0}, bytes{0};
   std::atomic<bool> lacking{false};
@@ -103,7 +103,7 @@ uint64_t liveBytes(const RuntimeOwner& runtime) {
   return live;
 }
 
-/// Destroys a handle, which must succeed, and then again, which must fail, even without memory.
+/// Destroys a handle, which must succeed, and then destroys it again, which must fail, also if no memory is available.
 template <class Handle>
 void endTwice(Watch& watch, const char* function, sgm_result (*end)(Handle*), Handle* handle) {
   CAPTURE(function);
@@ -129,7 +129,7 @@ void endTwice(Watch& watch, const char* function, sgm_result (*end)(Handle*), Ha
 using ChunkId = std::tuple<int32_t, int32_t, int32_t, int32_t>;
 ChunkId idOf(const sgm_chunk_key& key) { return {key.level, key.x, key.y, key.z}; }
 
-/// Holds the drawn meshes and colliders, and releases them; on request, releases handles a second time.
+/// An engine that holds the drawn meshes and colliders, releases them, and on request releases some a second time.
 class CarelessEngine {
  public:
   CarelessEngine(bool careless, uint32_t seed) : careless_(careless), random_(seed) {}
@@ -149,7 +149,7 @@ class CarelessEngine {
     }
   }
 
-  /// The drawn bodies and seams, and the collision triangles, as the world reports them.
+  /// Returns the drawn bodies and seams and the collision triangles, by chunk, as the world's queries report them.
   std::map<ChunkId, std::tuple<uint64_t, uint32_t, uint32_t>> drawn(sgm_world* world) {
     size_t count = 0;
     REQUIRE(sgm_world_get_drawn(world, nullptr, 0, &count, nullptr) == SGM_OK);
@@ -198,7 +198,7 @@ class CarelessEngine {
   std::mt19937 random_;
   std::map<ChunkId, sgm_mesh*> meshes_;
   std::map<ChunkId, sgm_collider*> colliders_;
-  std::deque<std::function<sgm_result()>> ended_;  ///< destroy calls to repeat, the last first
+  std::deque<std::function<sgm_result()>> ended_;  ///< destroy calls to repeat, the most recent first
   size_t wrong_ = 0;
 };
 
@@ -225,7 +225,7 @@ TEST_CASE("each kind of handle ended twice: a code, a line in the log, and no mo
     const sgm_viewer viewer = SGM_VIEWER_INIT;
     REQUIRE(sgm_world_set_viewers(world, &viewer, 0, 1, nullptr) == SGM_OK);
 
-    // After creation, the world alone owns everything that it needs for streaming.
+    // A created world keeps all objects alive that it needs for streaming, so the other handles can be destroyed now.
     END_TWICE(sgm_diagnostics_destroy, diagnostics);
     END_TWICE(sgm_parameters_destroy, parameters);
     END_TWICE(sgm_grammar_destroy, grammar);
@@ -283,7 +283,7 @@ TEST_CASE("owners are counted, and a handle has ended once none is left, in any 
         for (auto i = 1 + random() % 20; i > 0; --i) {
           if (random() % 2 == 0) {
             known.push_back({nullptr, makeParameters(grammar.get())});
-          } else {  // a chunk without a surface
+          } else {  // the mesh of a chunk without a surface
             known.push_back({meshChunks(field.get(), {chunkAt({0, 99, 0, 0})})[0].release(), nullptr});
           }
         }
@@ -299,7 +299,7 @@ TEST_CASE("owners are counted, and a handle has ended once none is left, in any 
           }
         }
         std::erase_if(known, forgotten);
-        // The oldest ended handle that the library still recognises as ended.
+        // Release the oldest destroyed handle that the library still recognises as destroyed.
         for (Known& k : known)
           if (k.owners == 0 && ended - k.ended == kRemembered - 1) release(k);
       }

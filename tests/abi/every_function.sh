@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every function that sgm/sgm.h declares is called with wrong arguments in one of the TESTS, or is one of the four that
-# take no pointer; and every number that it defines is pinned in layout.c.
+# Checks that every function that sgm/sgm.h declares is called with wrong arguments in one of the TESTS, except for the
+# four functions that take no pointer; and that layout.c checks every constant that the header defines.
 #   every_function.sh HEADER LAYOUT TESTS...
 set -euo pipefail
 header=$1 layout=$2

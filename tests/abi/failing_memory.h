@@ -1,6 +1,6 @@
 #pragma once
-// Memory that runs out where a test requests it: the allocator that the caller provides, and the program's whole heap
-// (memory_test.cpp).
+// Simulates memory that runs out at a chosen allocation: in the allocator that the caller provides, or in the whole
+// program's heap (memory_test.cpp).
 
 #include <algorithm>
 #include <atomic>
@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <new>
 
-/// An allocator that fails after `left` more allocations: `failures` allocations fail, or all if it keeps its default.
+/// An allocator that fails after `left` successful allocations: the next `failures` allocations fail, by default all.
 struct Failing {
   std::atomic<int64_t> left{INT64_MAX};
   std::atomic<int64_t> failures{INT64_MAX};
@@ -28,9 +28,10 @@ struct Failing {
   }
 };
 
-/// Number of C++ heap allocations that succeed on this thread before all further ones fail; below 0: none fails.
+/// Number of C++ heap allocations that still succeed on this thread; all later ones fail. Below 0: none fails.
 inline thread_local int64_t heap_left = -1;
-/// Number of allocations on all threads together that still succeed, and the number of those after them that fail.
+/// heap_left_everywhere: number of allocations, on all threads together, that still succeed; heap_failures: number of
+/// allocations after these that fail.
 inline std::atomic<int64_t> heap_left_everywhere{INT64_MAX}, heap_failures{INT64_MAX};
 
 inline void* heapAllocate(size_t size, size_t alignment) {

@@ -1,5 +1,5 @@
 #pragma once
-// Owners of the C interface's handles, and the small worlds that its tests use.
+// RAII owners of the C interface's handles, and the small worlds that its tests use.
 
 #include <sgm/sgm.h>
 
@@ -11,7 +11,7 @@
 #include "catch.h"
 
 struct EndRuntime {
-  // Every test must release what it has created: destroying a runtime that is still in use fails, which reveals a leak.
+  // Destroying a runtime fails while any of its objects exists, so this check finds objects that a test has leaked.
   void operator()(sgm_runtime* runtime) const { CHECK(sgm_runtime_destroy(runtime) == SGM_OK); }
 };
 template <auto End>
@@ -30,13 +30,13 @@ using MeshOwner = std::unique_ptr<sgm_mesh, EndWith<sgm_mesh_release>>;
 using WorldOwner = std::unique_ptr<sgm_world, EndWith<sgm_world_destroy>>;
 using SurfaceOwner = std::unique_ptr<sgm_surface, EndWith<sgm_surface_destroy>>;
 
-/// A ball with a radius of 3 m around (4, 4, 4) m.
+/// A grammar with one ball of radius 3 m around (4, 4, 4) m.
 inline constexpr const char* kBall =
     "sgm 1;\nunits m;\nparam radius = 3m in 1m..3.5m animated \"radius\";\nparam count = 2 in 1..4;\nparam turn = "
     "30deg;\n"
     "start Ball;\nrule Ball { at(4m, 4m, 4m) sphere(radius); mat marble; tag \"toy.ball\"; anchor spawn \"top\"; }\n";
 
-/// A ball in every cell of 32 m, in a void that ends nowhere.
+/// An infinite void with a ball in every cell of 32 m.
 inline constexpr const char* kBalls =
     "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n"
     "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
@@ -98,7 +98,7 @@ inline std::vector<MeshOwner> meshChunks(sgm_field* field, const std::vector<sgm
   return owners;
 }
 
-/// Levels 0 to 3, of which the finest reaches 10 m, and the last one 60 m.
+/// Describes a world with levels 0 to 3: the finest level reaches 10 m, the coarsest 60 m.
 inline sgm_world_desc smallWorld(uint32_t flags = 0) {
   sgm_world_desc desc = SGM_WORLD_DESC_INIT;
   desc.top_level = 3;
@@ -117,7 +117,7 @@ inline WorldOwner makeWorld(sgm_field* field, const sgm_world_desc& desc = small
   return WorldOwner(world);
 }
 
-/// A viewer at rest, x and z metres from the origin.
+/// Sets a single viewer at rest, x and z metres from the origin.
 inline void look(sgm_world* world, double x, double z = 0) {
   sgm_viewer viewer = SGM_VIEWER_INIT;
   viewer.position[0] = x;
@@ -127,7 +127,7 @@ inline void look(sgm_world* world, double x, double z = 0) {
 
 inline void comeToRest(sgm_world* world) { REQUIRE(sgm_world_wait_idle(world, nullptr, nullptr, nullptr) == SGM_OK); }
 
-/// What a world draws; the caller owns the meshes.
+/// Returns the chunks that a world draws; the caller owns their meshes.
 inline std::vector<sgm_drawn_chunk> drawnChunks(sgm_world* world) {
   size_t count = 0;
   REQUIRE(sgm_world_get_drawn(world, nullptr, 0, &count, nullptr) == SGM_OK);
@@ -163,8 +163,8 @@ inline sgm_surface_view viewOf(const SurfaceOwner& surface) {
   return view;
 }
 
-/// Checks that the view of a mesh or surface has wedges, that its triangles use all of them, and that each triangle has
-/// one pair of materials.
+/// Checks that the view of a mesh or surface has wedges (copies of vertices with their own texture coordinates), that
+/// its triangles use all of them, and that the wedges of a triangle have the same pair of materials.
 template <class View>
 void checkWedges(const View& view) {
   REQUIRE(view.wedges != nullptr);

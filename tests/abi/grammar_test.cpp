@@ -236,7 +236,7 @@ TEST_CASE("a grammar says where its world lies") {
   CHECK(info.density_edge == 0);
   for (size_t axis = 0; axis < 3; ++axis) {
     CHECK(info.cut[axis] == 0);
-    // The bounds must hold the ball at its largest radius.
+    // The bounds must contain the ball even with its largest radius.
     CHECK(info.minimum[axis] <= 4 * 1024 - 3584);
     CHECK(info.maximum[axis] >= 4 * 1024 + 3584);
   }

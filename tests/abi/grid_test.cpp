@@ -51,7 +51,7 @@ float ball(double x, double y, double z, double centre, double radius) {
       std::sqrt((x - centre) * (x - centre) + (y - centre) * (y - centre) + (z - centre) * (z - centre)) - radius);
 }
 
-/// Number of directed edges without an opposite edge.
+/// Returns the number of directed edges without an opposite edge.
 size_t openEdges(const sgm_surface_view& view) {
   std::map<std::pair<uint32_t, uint32_t>, int> edges;
   for (uint64_t i = 0; i < view.index_count; i += 3) {
@@ -121,7 +121,7 @@ TEST_CASE("random grids of odd sizes are closed inside, and equal for any number
   for (unsigned round = 0; round < sgm::rounds(12); ++round) {
     const auto side = [&] { return static_cast<uint32_t>(2 + random() % 70); };
     Grid grid(side(), side(), side());
-    // The grid's border is void, so that the surface is closed.
+    // Make the grid's border void, so that the surface is closed.
     grid.fill([&](double x, double y, double z) {
       const bool border =
           x == 0 || y == 0 || z == 0 || x + 1 == grid.size[0] || y + 1 == grid.size[1] || z + 1 == grid.size[2];
@@ -153,7 +153,7 @@ TEST_CASE("a grid of many slabs is meshed alike however many there are, and howe
     const auto side = [&](unsigned least) { return static_cast<uint32_t>(least + random() % 100); };
     Grid grid(side(200), side(150), 40 + static_cast<uint32_t>(random() % 20));
     grid.fill([&](double x, double y, double z) {
-      // This chooses the same sample rows as the mesher does when it estimates the size of the result
+      // Selects the same sample rows as the mesher, which estimates the size of the result from them
       // (api/grid_mesh.cpp).
       const double turn = z * 0.6180339887498949, row = std::floor((turn - std::floor(turn)) * (grid.size[1] - 2));
       const bool solid[] = {std::sin(x * 0.31) + std::sin(y * 0.37) + std::sin(z * 0.41) < 0,

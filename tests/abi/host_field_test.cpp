@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Solid below a height in metres, until it is made to fail.
+/// A field that is solid below a height in metres, and can be made to fail.
 struct Ground {
   double height = 4;
   std::atomic<bool> fails{false};

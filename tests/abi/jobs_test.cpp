@@ -1,4 +1,4 @@
-// Tests job systems that behave in all ways that the contract allows.
+// Tests that the library works with any job system that fulfils the contract, however it schedules jobs.
 
 #include <chrono>
 #include <deque>
@@ -14,8 +14,8 @@ struct Job {
   void* argument;
 };
 
-/// A job system with one thread that takes a job now and then, the newest first; if it supports help, callers run the
-/// other jobs.
+/// A job system with one thread that takes a job now and then, the newest first. If it supports help, waiting callers
+/// run the other jobs.
 struct Lazy {
   std::mutex mutex;
   std::deque<Job> waiting;
@@ -68,8 +68,8 @@ sgm_job_system table(Lazy& lazy) {
           &lazy};
 }
 
-/// The hash of a surface; 0 if a call fails. Makes no assertions, since Catch2 allows them in one thread at a time
-/// only.
+/// Returns the hash of a surface; 0 if a call fails. Makes no assertions, because Catch2 supports them on one thread at
+/// a time only.
 uint64_t gridHash(sgm_runtime* runtime) {
   std::vector<float> values(40 * 40 * 40);
   for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i % 97) - 50.0f;
@@ -83,7 +83,7 @@ uint64_t gridHash(sgm_runtime* runtime) {
   return hash;
 }
 
-/// Calls every function that submits jobs once; returns the hash of all results.
+/// Calls every function that submits jobs; returns the hash of all results.
 uint64_t workOn(sgm_runtime* runtime) {
   const GrammarOwner grammar = compile(runtime, kBall);
   const FieldOwner field = makeField(runtime, grammar.get());
@@ -184,7 +184,7 @@ TEST_CASE("a job system without threads, which runs its jobs in help alone", "[t
     RuntimeOwner runtime = makeRuntime(&desc);
     const uint64_t expected = expectedHash();
     CHECK(workOn(runtime.get()) == expected);
-    // Two concurrent calls, each of which may run job shares of the other.
+    // Two concurrent calls: while one waits, it may run jobs of the other.
     const uint64_t grid = gridHash(runtime.get());
     CHECK(grid != 0);
     uint64_t other = 0;
@@ -194,7 +194,7 @@ TEST_CASE("a job system without threads, which runs its jobs in help alone", "[t
     CHECK(mine == grid);
     CHECK(other == grid);
   }
-  // Jobs left over from finished calls have run before the runtime was destroyed.
+  // All jobs must have run before the runtime was destroyed, including late ones that found no work left.
   CHECK(helped.waiting.empty());
   CHECK(helped.ran > 0);
 }

@@ -1,5 +1,5 @@
-// Keeps Vulkan drivers loaded: tests in which a runtime chooses a backend would otherwise load and unload all drivers
-// again.
+// Keeps Vulkan drivers loaded for the whole program: otherwise each test in which a runtime chooses a backend would
+// load and unload all drivers again.
 
 #include "backend/vulkan/instance.h"
 #include "vulkan/keep_libraries.h"

@@ -1,6 +1,7 @@
 /*
- * Sizes and offsets of every struct of sgm/sgm.h on machines with 64-bit pointers, and every number in it. Compiled as
- * C99 and as C++20: a change that breaks programs built with the header of an earlier patch version does not compile.
+ * Checks, at compile time, sizes and offsets of every struct of sgm/sgm.h on machines with 64-bit pointers, and every
+ * constant in it, so that a change that breaks programs built with the header of an earlier patch version does not
+ * compile. Compiled as C99 and as C++20.
  */
 #include <sgm/sgm.h>
 
@@ -24,7 +25,7 @@ CHECK(quantity_size, sizeof(sgm_quantity) == 4);
 CHECK(face_size, sizeof(sgm_face) == 4);
 CHECK(density_format_size, sizeof(sgm_density_format) == 4);
 
-/* Values that programs have compiled in. */
+/* Values of constants, which are compiled into programs and so must not change. */
 CHECK(version_major, SGM_VERSION_MAJOR == 0);
 CHECK(version_minor, SGM_VERSION_MINOR == 2);
 CHECK(version_patch, SGM_VERSION_PATCH == 0);
@@ -769,7 +770,7 @@ PLACE(sgm_mesh_measures, edges, 256);
 PLACE(sgm_mesh_measures, euler, 264);
 PLACE(sgm_mesh_measures, border_edges, 272);
 
-/* Every _INIT macro fills its struct, in both languages, without a warning. */
+/* Every _INIT macro must initialise its struct, in C and in C++, without a warning. */
 int LAYOUT_INITS(void) {
   const sgm_error error = SGM_ERROR_INIT;
   const sgm_runtime_desc runtime_desc = SGM_RUNTIME_DESC_INIT;

@@ -1,4 +1,4 @@
-// Tests measures of meshes by the C interface: of a mesh that the library has made, and of damaged ones.
+// Tests measuring meshes through the C interface: a mesh that the library has made, and damaged meshes.
 
 #include <atomic>
 #include <cmath>

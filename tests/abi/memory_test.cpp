@@ -22,7 +22,7 @@ struct Handles {
   sgm_surface* grid = nullptr;
 };
 
-/// Calls functions of the whole interface, until the first one fails.
+/// Calls functions of the whole interface in order, and stops at the first one that fails.
 sgm_result everything(Handles& h, const sgm_allocator& allocator, uint32_t threads, sgm_error* error) {
   sgm_runtime_desc runtime = SGM_RUNTIME_DESC_INIT;
   runtime.allocator = &allocator;
@@ -107,7 +107,7 @@ void endAll(Handles& h) {
 
 }  // namespace
 
-// Replaces operator new of the whole program, including the shared library.
+// Replaces operator new of the whole program, including the shared library, by one that can be made to fail.
 void* operator new(size_t size) {
   if (void* memory = heapAllocate(size, alignof(std::max_align_t))) return memory;
   throw std::bad_alloc();
@@ -130,8 +130,8 @@ void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::fre
 TEST_CASE("each allocation from the allocator fails in turn") {
   Failing failing;
   const sgm_allocator allocator{Failing::allocate, Failing::release, &failing};
-  // Fails each of the first allocations, then every n-th in growing steps: later allocations repeat the same code paths
-  // for another container.
+  // n: number of allocations that succeed. It grows in steps of 1, later in larger steps, because later allocations
+  // mostly repeat the same code paths.
   int64_t tries = 0;
   for (int64_t n = 0;; n += 1 + n / 64) {
     failing.left = n;
@@ -152,7 +152,7 @@ TEST_CASE("each allocation from the allocator fails in turn") {
 
 namespace {
 
-/// Makes the n-th allocation of the C++ heap and all later ones fail, for increasing n.
+/// For increasing n, makes the n-th allocation of the C++ heap and all later ones fail.
 template <class Begin, class End>
 void failHeap(uint32_t threads, Begin begin, End end) {
   const sgm_allocator allocator{[](void*, size_t size, size_t alignment) {
@@ -186,7 +186,8 @@ TEST_CASE("each allocation of the C++ heap on any thread fails in turn") {
 }
 
 TEST_CASE("threads that mesh a grid together end together, whichever of them has no memory") {
-  // Planes so large that four make a slab; there are more slabs than threads, and a ball extends into all of them.
+  // Layers of samples so large that a slab has only four of them: there are more slabs than threads, and the ball
+  // extends into all of them.
   constexpr size_t kX = 512, kY = 256, kZ = 18;
   constexpr size_t kCount = kX * kY * kZ;
   const std::unique_ptr<float, void (*)(void*)> values(static_cast<float*>(std::malloc(kCount * sizeof(float))),

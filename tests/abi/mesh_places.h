@@ -1,9 +1,9 @@
 #pragma once
-// Where vertices of meshes lie.
+// Computes the exact positions of mesh vertices.
 
 #include "fixture.h"
 
-/// Bumpy balls without end, each with an anchor.
+/// An infinite world of bumpy balls, each with an anchor.
 inline constexpr const char* kBlobs =
     "sgm 1; units m;\n"
     "domain infinite;\n"
@@ -13,7 +13,7 @@ inline constexpr const char* kBlobs =
 
 using Place = std::array<int64_t, 3>;
 
-/// A vertex's place in 1/256 units of the world, exact.
+/// Returns a vertex's exact world position in 1/256 units.
 inline Place placeOf(const sgm_mesh_view& view, uint32_t index) {
   const sgm_vertex& v = view.vertices[index];
   const std::array<int16_t, 3> p{v.x, v.y, v.z};

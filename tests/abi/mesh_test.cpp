@@ -1,4 +1,4 @@
-// Meshes of chunks: views, copies, hashes, samples and anchors.
+// Tests meshes of chunks: views, copies, hashes, samples and anchors.
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,8 @@ TEST_CASE("copies are what the view shows, and say how much room they need") {
         SGM_INCOMPLETE);
   CHECK(too_few == index_count);
 
-  // Vertices are written into larger elements, whose other bytes stay unchanged.
+  // A vertex format of the caller, larger than sgm_vertex: copying vertices into it must leave the other bytes
+  // unchanged.
   struct Wide {
     sgm_vertex vertex;
     uint32_t index, mine;
@@ -230,7 +231,7 @@ TEST_CASE("anchors: listed in order, in the chunk that holds them, once") {
     CHECK(wide[i].anchor.key == anchors[i].key);
     CHECK(wide[i].mine == 77);
   }
-  // A box that overlaps too many cells is refused with its own message.
+  // A box that overlaps too many cells is refused with a message of its own.
   const int32_t from[3] = {INT32_MIN, INT32_MIN, INT32_MIN}, to[3] = {INT32_MAX, INT32_MAX, INT32_MAX};
   sgm_error error = SGM_ERROR_INIT;
   CHECK(sgm_field_anchors(field.get(), from, to, nullptr, 0, &count, &error) == SGM_ERR_LIMIT);

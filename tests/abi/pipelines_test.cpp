@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether there is a device to compile for; prints a message if not.
+/// Returns true if there is a device to compile shaders for; otherwise prints a message.
 bool haveDevice() {
   const RuntimeOwner runtime = makeRuntime();
   sgm_backend_info info = SGM_BACKEND_INFO_INIT;
@@ -31,7 +31,7 @@ struct Warnings {
   std::vector<std::string> texts;
 };
 
-/// The warnings of a runtime with that folder while its device meshes a ball.
+/// Returns the warnings of a runtime with this pipeline folder while its device meshes a ball.
 std::vector<std::string> warningsOfABall(const fs::path& folder) {
   Warnings warnings;
   const sgm_log_sink sink{[](void* user, sgm_log_level level, const char* message) {
@@ -42,7 +42,7 @@ std::vector<std::string> warningsOfABall(const fs::path& folder) {
                           },
                           &warnings};
   {
-    // The library must copy the path.
+    // This string is overwritten before meshing: the library must copy the path.
     std::string path = folder.string();
     sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
     desc.log = &sink;

@@ -1,4 +1,4 @@
-// Tests events of a world whose memory runs out while they are handed over.
+// Tests polling a world's events when memory runs out in the middle of it.
 
 #include <array>
 #include <map>
@@ -15,7 +15,7 @@ constexpr const char* kPolledHollows =
     "sgm 1; units m; domain infinite solid;\nlayer l cell 16m reach 4m { start Ball; }\n"
     "rule Ball { at(4m, 4m, 4m) cut sphere(3m); }\n";
 
-/// An engine's state according to a world's events.
+/// The chunks that an engine draws, according to a world's events.
 struct Polled {
   using Key = std::array<int32_t, 4>;
   std::map<Key, MeshOwner> meshes;
@@ -70,7 +70,8 @@ TEST_CASE("a poll that fails has delivered nothing, and what it met comes with t
         sgm_world_event events[16];
         size_t count = std::size(events);
         failing.failures = 1;
-        // Memory fails at the first event in half of the cases, otherwise at a random one, up to twice as many as fit.
+        // In half of the cases, memory runs out at the first event; otherwise at a random event, up to twice as many as
+        // fit into `events`.
         failing.left = random() % 2 == 0 ? 0 : static_cast<int64_t>(random() % (2 * std::size(events)));
         const sgm_result result = sgm_world_poll(made, events, 0, &count, nullptr);
         failing.left = INT64_MAX;

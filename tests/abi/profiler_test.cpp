@@ -17,7 +17,8 @@ const std::set<std::string> kZones = {"sgm.derive", "sgm.compile", "sgm.mesh", "
                                       "sgm.plan",   "sgm.update",  "sgm.poll", "sgm.region"};
 const std::set<std::string> kPlots = {"sgm.queued", "sgm.in_work", "sgm.mesh_bytes"};
 
-/// Records the zones of each thread. Any thread may report; results may be read when all work has ended.
+/// A profiler that records the zones of each thread. Any thread may report zones; results may be read when all work has
+/// ended.
 class ZoneRecord {
  public:
   sgm_profiler table() {
@@ -32,14 +33,15 @@ class ZoneRecord {
     return profiler;
   }
 
-  std::map<std::string, size_t> counts;  ///< number of zones by name
-  /// Number of zones by the names of the enclosing zone and the zone; "" if there is no enclosing zone.
+  std::map<std::string, size_t> counts;  ///< number of zones with each name
+  /// Number of zones by the pair (name of the enclosing zone, name of the zone); "" if there is no enclosing zone.
   std::map<std::pair<std::string, std::string>, size_t> within;
   std::map<std::string, std::vector<double>> plots;
-  std::map<std::string, std::set<const void*>> pointers;  ///< addresses of each name
+  std::map<std::string, std::set<const void*>> pointers;  ///< for each name, the addresses of the strings that were
+                                                          ///< passed
   std::map<std::thread::id, std::vector<std::string>> thread_names;
   std::set<std::thread::id> threads;
-  size_t crossed = 0;  ///< number of ends that did not belong to their thread's innermost zone
+  size_t crossed = 0;  ///< number of end() calls that did not end the innermost zone of their thread
 
   size_t open() const {
     size_t sum = 0;
@@ -64,7 +66,7 @@ class ZoneRecord {
     ++counts[zone];
     ++within[{stack.empty() ? "" : stack.back().name, zone}];
     pointers[zone].insert(zone);
-    // Every bit of the returned value must be passed back to end().
+    // Return a different value each time, of which every bit must be passed back to end().
     next_ = next_ * 6364136223846793005u + 1442695040888963407u;
     stack.push_back({zone, next_});
     return next_;
@@ -105,7 +107,7 @@ constexpr const char* kOneLayer =
     "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m { start Ball; }\n"
     "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
 
-/// Some balls around the origin, with shapes on them that query the layer below while they are derived.
+/// A grammar with balls around the origin, and a second layer whose shapes query the first layer during derivation.
 constexpr const char* kTwoLayers =
     "sgm 1; units m; domain infinite;\n"
     "layer l cell 32m reach 8m { start Ball; }\n"
@@ -146,8 +148,8 @@ bool drawFrame(sgm_world* world) {
   }
 }
 
-/// Draws frames until the world's statistics satisfy a condition; returns their number. This thread runs no jobs
-/// meanwhile.
+/// Draws frames until the world's statistics satisfy a condition; returns the number of frames. This thread runs no
+/// jobs meanwhile.
 template <class Wanted>
 size_t drawUntil(sgm_world* world, Wanted wanted) {
   sgm_world_stats stats = SGM_WORLD_STATS_INIT;
@@ -196,7 +198,7 @@ TEST_CASE("zones nest on each thread, and all of them are there", "[threads]") {
   CHECK(record.counts["sgm.region"] == 1);
   CHECK(record.counts["sgm.update"] == updates);
   CHECK(record.within[{"", "sgm.region"}] == 1);
-  // A layer's cell is derived while a chunk is compiled, and cells of the layer below while that cell is derived.
+  // Compiling a chunk derives a cell of the upper layer, and deriving that cell derives cells of the layer below.
   CHECK(record.within[{"sgm.compile", "sgm.derive"}] > 0);
   CHECK(record.within[{"sgm.derive", "sgm.compile"}] > 0);
   for (const std::string& name : kPlots) CHECK(record.plots[name].size() == updates);
@@ -242,7 +244,7 @@ TEST_CASE("every zone ends where calls fail", "[threads]") {
   const sgm_profiler profiler = record.table();
   {
     const RuntimeOwner runtime = profiled(profiler);
-    // Derivation exceeds its limit: too many shapes.
+    // Derivation fails: the grammar exceeds the limit on shapes.
     const GrammarOwner endless = compile(runtime.get(),
                                          "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m { start Many; }\n"
                                          "rule Many { for i in 0..4000000 { at(1m, 1m, 1m) sphere(0.1m); } }\n");
@@ -250,7 +252,7 @@ TEST_CASE("every zone ends where calls fail", "[threads]") {
     CHECK(meshRegion(capped.get(), 20'000, nullptr, nullptr) == SGM_ERR_LIMIT);
     CHECK(record.counts["sgm.derive"] > 0);
     CHECK(record.counts["sgm.mesh"] == 0);
-    // Compilation exceeds its limit: too many cells for any chunk of the world.
+    // Compilation fails: every chunk of the world overlaps more cells than the limit allows.
     const GrammarOwner dense = compile(runtime.get(),
                                        "sgm 1; units m; domain infinite;\nlayer l cell 1m reach 0.5m { start Dot; }\n"
                                        "rule Dot { sphere(0.1m); }\n");
@@ -281,7 +283,7 @@ TEST_CASE("every zone ends where work is cancelled", "[threads]") {
         return done >= *static_cast<uint64_t*>(user) ? 1 : 0;
       };
       CHECK(meshRegion(field.get(), 90'000, stop, &last) == SGM_ERR_CANCELLED);
-      // A world that is destroyed, or stopped, during its work.
+      // Zones must also end if a world is destroyed or stopped during its work.
       const WorldOwner world = streamFrom(field.get());
       lookFrom(world.get(), 0);
       for (int i = 0; i < frames; ++i) {

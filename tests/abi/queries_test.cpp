@@ -10,7 +10,7 @@
 
 namespace {
 
-/// The point that a call gives: call(point, error).
+/// Returns the point that a query writes: call(point, error).
 template <class Call>
 sgm_surface_point answered(const Call& call) {
   sgm_surface_point point = SGM_SURFACE_POINT_INIT;
@@ -99,7 +99,7 @@ TEST_CASE(
   RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar = compile(runtime.get(), kBall);
   const FieldOwner field = makeField(runtime.get(), grammar.get());
-  // A path from one side of the ball (3 m around (4, 4, 4) m) to the other, in cells of 0.25 m.
+  // Search a path from one side of the ball (radius 3 m around (4, 4, 4) m) to the other, in cells of 0.25 m.
   sgm_way_desc desc = SGM_WAY_DESC_INIT;
   for (int32_t& v : desc.maximum) v = 8 * 1024;
   desc.from[0] = 0.25 * 1024;
@@ -115,7 +115,7 @@ TEST_CASE(
   CHECK(way.length > 7.5);
   CHECK(way.length < 16);
   CHECK(way.from_clearance == Approx(0.75).margin(0.26));
-  CHECK(way.widest == way.from_clearance);  // along the path there is more room than at its ends
+  CHECK(way.widest == way.from_clearance);  // the clearance is smallest at an end of the path, not within it
   CHECK(way.void_count == 1);
   CHECK(way.sealed_count == 0);
   CHECK(way.from_volume == way.largest_volume);
@@ -158,7 +158,7 @@ TEST_CASE("the radius that a way is widest for has none, and the number before i
   sgm_way_desc desc = SGM_WAY_DESC_INIT;
   for (int32_t& v : desc.maximum) v = 8 * 1024;
   desc.to[0] = 7.75 * 1024;
-  // Places around the ball, with many different distances to the nearest samples.
+  // Query positions around the ball at many different distances from the nearest samples.
   size_t odd = 0;
   for (int place = 0; place < 24; ++place) {
     CAPTURE(place);
@@ -184,11 +184,12 @@ TEST_CASE("the radius that a way is widest for has none, and the number before i
 
 namespace {
 
-/// The calls of a progress callback: for each run that begins with 1, the last progress and its total.
+/// Records the calls of a progress callback. runs: for each run of calls that begins with done == 1, the last `done`
+/// and the total.
 struct Told {
   std::vector<std::array<uint64_t, 2>> runs;
-  size_t calls = 0, stop_at = 0;  ///< number of the call that cancels the work; 0: none
-  bool steady = true;             ///< whether `done` rose by one each time, and the total stayed the same
+  size_t calls = 0, stop_at = 0;  ///< number of calls so far; number of the call that cancels the work (0: none)
+  bool steady = true;             ///< true if in each run `done` rose by one each time, and the total stayed the same
 };
 
 int32_t tell(void* user, uint64_t done, uint64_t total) {
@@ -209,7 +210,7 @@ TEST_CASE("a way tells of each look at its region and of its walk, in a flat reg
   const FieldOwner field = makeField(runtime.get(), grammar.get());
   for (const int flat : {0, 1, 2}) {
     CAPTURE(flat);
-    // A volume of 9 by 9 chunks of 8 m, one chunk high.
+    // The searched region has 9 by 9 chunks of 8 m, and is one chunk thick along the axis `flat`.
     sgm_way_desc desc = SGM_WAY_DESC_INIT;
     for (int axis = 0; axis < 3; ++axis) {
       desc.maximum[axis] = (axis == flat ? 8 : 72) * 1024;
@@ -224,7 +225,8 @@ TEST_CASE("a way tells of each look at its region and of its walk, in a flat reg
     REQUIRE(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_OK);
     REQUIRE(way.verdict == SGM_WAY_FOUND);
     CHECK(told.steady);
-    // Expected runs of progress: a look, the walk, and at most two more looks for the widest agent.
+    // Expected runs of progress calls: one for sampling the region, one for the search, and at most two more for
+    // sampling with wider agents.
     REQUIRE((told.runs.size() >= 3 && told.runs.size() <= 4));
     for (size_t run = 0; run < told.runs.size(); ++run) {
       CAPTURE(run);
@@ -243,7 +245,7 @@ TEST_CASE("a way tells of each look at its region and of its walk, in a flat reg
       CHECK(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_ERR_CANCELLED);
       CHECK((stopped.calls == stop && stopped.steady && way.verdict == 77));
     }
-    // Stopping in the last progress call of a run has no effect.
+    // Cancelling in the last progress call of a run has no effect, since that work is complete.
     desc.flags = 0;
     Told last;
     last.stop_at = walk;

@@ -1,5 +1,5 @@
 #pragma once
-// Worlds whose meshes stay in device memory, for tests of devices that engines provide.
+// Worlds whose meshes stay in device memory, for tests in which the engine provides the device.
 
 #include <random>
 
@@ -12,7 +12,7 @@ inline constexpr const char* kLumps =
     "sgm 1; units m; domain infinite;\nlayer l cell 16m reach 8m detail 1m { start Lump; }\n"
     "rule Lump { at(8m, 8m, 8m) { scatter 5 on disc(4m) sphere(rand(1m, 3m)); } }\n";
 
-/// Waits until the device is ready. A streamed world would not wait, but mesh on the CPU instead.
+/// Waits until the device is ready. Without this, a streamed world would not wait, but mesh on the CPU.
 inline void makeReady(sgm_field* field) {
   std::vector<sgm_chunk_request> requests;
   for (int level = 0; level < 4; ++level) {
@@ -44,8 +44,9 @@ inline void waitIdle(sgm_world* world) {
   pollAll(world);
 }
 
-/// Moves a viewer at random in two equal worlds of `text`: one on `field`, one on the CPU. Calls check(mesh) for every
-/// mesh of the first world, where it lies in device memory; check returns the mesh's number of triangles.
+/// Moves a viewer at random in two equal worlds of the grammar `text`: one on `field`, one on the CPU. Calls
+/// check(mesh) for every mesh of the first world, which is in device memory; check must return the mesh's number of
+/// triangles.
 template <class Check>
 void wanderBeside(sgm_field* field, const char* text, const Check& check) {
   const unsigned seed = sgm::testSeed();
@@ -69,14 +70,15 @@ void wanderBeside(sgm_field* field, const char* text, const Check& check) {
     size_t triangles = 0;
     for (const MeshOwner& mesh : meshes) triangles += check(mesh);
     CHECK(triangles > 0);
-    // Meshes that the engine holds must not be overwritten by meshes that are made later.
+    // Meshes that the engine still holds must not be overwritten by later meshes: check them again.
     for (const MeshOwner& mesh : kept) check(mesh);
     kept = std::move(meshes);
   }
 }
 
-/// Meshes of a field on the CPU have no view on a device: each call says so. lend: the function that would lend one;
-/// getView fills such a view as `init` is one, and isEmpty(view) says whether it has nothing.
+/// Checks that meshes of a field on the CPU have no view in device memory, and that each call reports that. lend: name
+/// of the function by which an engine would provide its device. getView: fills a view, which is initialised from
+/// `init`. isEmpty(view): whether the view refers to no memory.
 template <class View, class GetView, class IsEmpty>
 void checkNothingBorrowed(sgm_field* on_cpu, const char* lend, const View& init, GetView getView, IsEmpty isEmpty) {
   sgm_world_desc desc = SGM_WORLD_DESC_INIT;

@@ -66,7 +66,7 @@ TEST_CASE("a runtime with children is busy") {
   FieldOwner field = makeField(runtime.get(), grammar.get());
   grammar.reset();
   CHECK(sgm_runtime_destroy(runtime.get()) == SGM_ERR_BUSY);
-  // The field keeps its grammar alive.
+  // The grammar's handle is destroyed, but the field keeps the grammar alive.
   std::vector<MeshOwner> meshes = meshChunks(field.get(), {chunkAt({0, 0, 0, 0}, 0)});
   CHECK(viewOf(meshes[0]).index_count > 0);
   field.reset();
@@ -112,7 +112,7 @@ TEST_CASE("memory comes from the allocator and goes back to it whole") {
       CHECK(peak >= live);
       CHECK(counter.live >= live);
     }
-    // A worker that joins a batch late may hold its memory for a moment longer.
+    // A worker that joined the batch late may hold its memory a moment longer, so try several times.
     uint64_t after = 1;
     for (int tries = 0; after != 0 && tries < 60'000; ++tries) {
       REQUIRE(sgm_runtime_memory(runtime.get(), &after, nullptr) == SGM_OK);
@@ -183,7 +183,7 @@ TEST_CASE("what a field leaves out is logged as a warning, once a place") {
                                        "layer main cell 8m reach 6m { start Blob; }\n"
                                        "rule Blob { sphere(1m); scale(rand(-1, 1)) sphere(2m); }\n");
   const FieldOwner field = makeField(runtime.get(), grammar.get());
-  // Many cells are derived, half of which give the same warning about omitted shapes.
+  // Derives many cells, half of which give the same warning about omitted shapes.
   meshChunks(field.get(), {chunkAt({0, 0, 0, 0}), chunkAt({0, 1, 0, 0}), chunkAt({0, 5, 0, 0})});
   INFO((log.warnings.empty() ? "no warning" : log.warnings[0]));
   REQUIRE(log.warnings.size() == 1);

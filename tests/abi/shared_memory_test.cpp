@@ -1,5 +1,5 @@
-// Tests an engine that draws with Vulkan the meshes that CUDA makes; its device has external memory. With
-// LD_LIBRARY_PATH set, libcuda.so.1 is a simulated driver whose GPU stands for the Vulkan device.
+// Tests an engine that draws with Vulkan the meshes that CUDA makes; its Vulkan device has external memory. With
+// LD_LIBRARY_PATH set, libcuda.so.1 is a simulated driver whose GPU stands for the Vulkan device's.
 
 #include <chrono>
 #include <cstdlib>
@@ -13,14 +13,14 @@
 #include "vulkan/have_device.h"
 #include "vulkan_lender.h"
 
-/// Suppresses reports of leaks in the validation layer, which keeps objects in reference cycles. That our objects are
-/// destroyed is checked by the layer at the device's end.
+/// Suppresses leak reports about the validation layer, which keeps objects in reference cycles. The layer itself
+/// checks, when the device is destroyed, that our Vulkan objects were destroyed.
 extern "C" const char* __lsan_default_suppressions(void);
 extern "C" const char* __lsan_default_suppressions(void) { return "leak:libVkLayer_khronos_validation.so"; }
 
 namespace {
 
-/// The GPU that both APIs use; counts the imported memory.
+/// Makes the simulated CUDA GPU the same as the Vulkan device, and counts the memory that is imported.
 class OneGpu {
  public:
   explicit OneGpu(const Lender& lender) : state_(pretendedGpu()), before_(state_.imports + state_.mapped) {
@@ -30,7 +30,7 @@ class OneGpu {
     state_.fail_call.clear();
     state_.fail_nth = 0;
     state_.lasts = false;
-    // Memory imported by a lost context is released with that context, so the count may be lower.
+    // A lost context releases its imported memory itself, so the count is exact only if no context was lost.
     if (!state_.unsure) CHECK(state_.imports + state_.mapped == before_);
     state_.unsure = false;
   }
@@ -44,7 +44,7 @@ class OneGpu {
   const int before_;
 };
 
-/// The result of making a field on a backend.
+/// Tries to create a field on a backend; returns the result.
 sgm_result fieldOn(const RuntimeOwner& runtime, sgm_backend backend, sgm_error& error) {
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
   sgm_field_desc desc = SGM_FIELD_DESC_INIT;
@@ -82,7 +82,7 @@ TEST_CASE("what CUDA meshes lies on the Vulkan device that draws, wherever the v
     CHECK(info.chunks_on_cpu == 0);
     CHECK(gpu.imports() > 0);
   }
-  // Device work that was submitted for the last meshes may still be running.
+  // Work that the device does for the last meshes may still be running, so wait for it.
   for (int tries = 0; infoOf(runtime, backend).resident != 0 && tries < 60'000; ++tries) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -180,7 +180,7 @@ TEST_CASE("an engine without a lock has both backends on its queue at once", "[s
     for (const WorldOwner& world : worlds) look(world.get(), x, 0);
     for (const WorldOwner& world : worlds) REQUIRE(sgm_world_update(world.get(), 1 << 20, nullptr) == SGM_OK);
     for (const WorldOwner& world : worlds) waitIdle(world.get());
-    // The engine uses its queue only now, when no world submits to it.
+    // The engine uses its queue only here, where no world submits work to it.
     for (const WorldOwner& world : worlds) {
       size_t triangles = 0;
       for (const MeshOwner& mesh : drawnOf(world.get())) triangles += checkMesh(lender, mesh);
@@ -202,11 +202,11 @@ TEST_CASE("where CUDA is lost, or must be opened again, all meshes are right whe
   const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
   const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
   std::vector<MeshOwner> kept;
-  // Each call fails once, in a runtime that has meshed nothing yet.
+  // Makes each of these driver calls fail once, in a runtime that has not meshed anything yet.
   double x = 0;
   for (const char* call : {"launchKernel", "memcpyDtoDAsync", "eventSynchronize", "importExternalMemory"}) {
     CAPTURE(call);
-    // An import happens only after a device loss, so one is caused first.
+    // A later import happens only after a loss of the device, so cause a loss first.
     const bool opening = std::strcmp(call, "importExternalMemory") == 0;
     gpu.state().fail_call = opening ? "launchKernel" : call;
     gpu.state().fail_nth = 1 + static_cast<unsigned>(random() % 3);

@@ -1,4 +1,4 @@
-// Surfaces of regions: welded chunks, with texture coordinates and sharp features where they are asked for.
+// Tests surfaces of regions: welded chunks, on request with texture coordinates and sharp features.
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +74,7 @@ TEST_CASE("a region is its chunks, welded: each border vertex once, open only at
   sgm_error error = SGM_ERROR_INIT;
   CHECK(sgm_surface_from_region(field.get(), &desc, &made, &error) == SGM_ERR_CANCELLED);
   CHECK(made == nullptr);
-  // When all is done, nothing is left to stop.
+  // Cancelling in the last progress call has no effect, since the work is complete.
   desc.progress = [](void*, uint64_t done, uint64_t total) -> int32_t { return done == total ? 1 : 0; };
   CHECK(sgm_surface_from_region(field.get(), &desc, &made, &error) == SGM_OK);
   sgm_surface_destroy(made);
@@ -143,7 +143,7 @@ TEST_CASE("regions and chunks have sharp features where they are asked for") {
       compile(runtime.get(),
               "sgm 1; units m; start Box; rule Box { at(4m, 4m, 4m) rot(y, 30deg) rot(x, 20deg) box(4m, 4m, 4m); }");
   const FieldOwner field = makeField(runtime.get(), grammar.get());
-  // How far the farthest vertex lies from the middle: a corner of the box.
+  // Returns the distance of the farthest vertex from the middle, which is a corner of the box.
   const auto farthest = [&](uint32_t flags) {
     sgm_region_desc desc = SGM_REGION_DESC_INIT;
     for (int axis = 0; axis < 3; ++axis) desc.maximum[axis] = 8 * SGM_UNITS_PER_METRE;

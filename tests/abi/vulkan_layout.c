@@ -1,5 +1,6 @@
 /*
- * As layout.c, for sgm/sgm_vulkan.h: sizes, offsets and _INIT macros, as C99 and as C++20.
+ * Checks sizes and offsets of every struct of sgm/sgm_vulkan.h, and its _INIT macros, as layout.c does for sgm/sgm.h.
+ * Compiled as C99 and as C++20.
  */
 #include <sgm/sgm_vulkan.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// An engine that provides its Vulkan device to the library, and reads the meshes in the device's memory.
+// A test engine that provides its Vulkan device to the library, and reads the meshes in the device's memory.
 
 #include <sgm/sgm_vulkan.h>
 
@@ -15,10 +15,10 @@
 
 namespace vk = sgm::vulkan;
 
-/// The engine: owns a device and a mutex for its queue, and can read the device's memory.
+/// The test engine: owns a device and a mutex for its queue, and can read the device's memory.
 class Lender {
  public:
-  /// external_memory: enables sharing of its memory with another API.
+  /// external_memory: enables the extensions by which the device shares memory with another API.
   explicit Lender(bool external_memory = false)
       : engine_(vk::Validation::synchronization, external_memory), external_memory_(external_memory) {
     vk::BorrowedDevice own = engine_.lend();
@@ -62,7 +62,7 @@ class Lender {
     REQUIRE(engine_.calls.vkWaitSemaphores(device_->handle(), &info, UINT64_MAX) == VK_SUCCESS);
   }
 
-  /// Reads bytes of a buffer that belongs to the runtime, by a copy on the device.
+  /// Reads data from a buffer of the runtime, by a copy on the device.
   template <class T>
   std::vector<T> read(VkBuffer buffer, VkDeviceSize offset, size_t count) {
     std::vector<T> values(count);
@@ -151,7 +151,8 @@ inline RuntimeOwner externalRuntime(Lender& lender, uint64_t mesh_bytes = 0) {
   return runtime;
 }
 
-/// Of what a world draws, some meshes lie on the device, and others found no room there.
+/// Checks that some of the drawn meshes are in device memory, with the right bytes, and that others are not, because
+/// that memory was full.
 inline void checkPartlyThere(Lender& lender, sgm_world* world) {
   size_t there = 0, missing = 0;
   for (const MeshOwner& mesh : drawnOf(world)) {

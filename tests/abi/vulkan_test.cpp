@@ -9,8 +9,8 @@
 extern "C" int sgm_vulkan_inits_c(void);
 extern "C" int sgm_vulkan_inits_cpp(void);
 
-/// Suppresses reports of leaks in the validation layer, which keeps objects in reference cycles. That our objects are
-/// destroyed is checked by the layer at the device's end.
+/// Suppresses leak reports about the validation layer, which keeps objects in reference cycles. The layer itself
+/// checks, when the device is destroyed, that our Vulkan objects were destroyed.
 extern "C" const char* __lsan_default_suppressions(void);
 extern "C" const char* __lsan_default_suppressions(void) { return "leak:libVkLayer_khronos_validation.so"; }
 
@@ -150,7 +150,7 @@ TEST_CASE("a device that cannot be lent is refused, for a reason, and changes no
   refused(SGM_ERR_UNSUPPORTED, "timelineSemaphore", [](auto& d) { d.timeline_semaphores = 0; });
   REQUIRE(sgm_runtime_lend_vulkan(runtime.get(), &good, nullptr) == SGM_OK);
   refused(SGM_ERR_BUSY, "already", [](auto&) {});
-  // A software device is not chosen automatically.
+  // SGM_BACKEND_AUTO does not select a software device.
   sgm_backend_info info = SGM_BACKEND_INFO_INIT;
   REQUIRE(sgm_backend_query(runtime.get(), SGM_BACKEND_VULKAN, &info, nullptr) == SGM_OK);
   CHECK(info.usable == 1);

@@ -1,5 +1,5 @@
-// Chunks, surfaces, measures and worlds with NULL, with structs of a wrong size and with numbers out of range: an error
-// code, never a crash.
+// Calls functions for chunks, surfaces, measures and worlds with NULL, with structs of a wrong size and with numbers
+// out of range: each call must return an error code and not crash.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ TEST_CASE("chunk calls are checked") {
   sgm_chunks_desc good = SGM_CHUNKS_DESC_INIT;
   good.requests = &request;
   good.count = 1;
-  // More entries than any call here may write, with something in them that is no mesh.
+  // A number of entries greater than any call here may accept, filled with a pointer that is no mesh.
   constexpr size_t kTooMany = (size_t{1} << 20) + 1;
   sgm_mesh* const wild = reinterpret_cast<sgm_mesh*>(&world);
   std::vector<sgm_mesh*> meshes(kTooMany + 1);
@@ -50,7 +50,7 @@ TEST_CASE("chunk calls are checked") {
   }
   request = chunkAt({0, 0, 0, 0}, 64);
   CHECK(meshWith(&good) == SGM_ERR_INVALID_ARGUMENT);
-  // The chunk itself, and beyond the 27 blocks.
+  // Of the 27 blocks around and including the chunk, 13 is the chunk itself, and 27 and above do not exist.
   for (const uint32_t block : {13u, 27u, 31u}) {
     request = chunkAt({0, 0, 0, 0});
     request.coarser = 1u << block;
@@ -62,7 +62,7 @@ TEST_CASE("chunk calls are checked") {
     CHECK(meshWith(&good) == SGM_ERR_INVALID_ARGUMENT);
   }
   const int32_t far = std::numeric_limits<int32_t>::max(), low = std::numeric_limits<int32_t>::min();
-  // The chunk's edge is 8192 units: 2^31 / 8192 chunks fit each way.
+  // A chunk's edge is 8192 units, so chunk coordinates must be within +-2^31 / 8192 = +-262144.
   for (const sgm_chunk_key key :
        {sgm_chunk_key{0, far, 0, 0}, sgm_chunk_key{0, 0, low, 0}, sgm_chunk_key{0, 0, 0, 262144},
         sgm_chunk_key{0, -262145, 0, 0}, sgm_chunk_key{SGM_MAX_LEVEL, 1, 0, 0}}) {
@@ -118,7 +118,8 @@ TEST_CASE("surface calls are checked") {
           d.maximum[0] = 8193;
           d.max_chunks = 1;
         }) == SGM_ERR_LIMIT);
-  // A number of chunks that no memory holds, and one that is only too many.
+  // Two regions with too many chunks: for the first, the list would not fit into memory; the second only exceeds the
+  // limit.
   for (const int32_t far : {1 << 30, 300 * 8192})
     CHECK(with([far](auto& d) {
             for (int32_t& v : d.maximum) v = far;

@@ -1,5 +1,5 @@
-// Tests a streamed world whose memory runs out at any allocation: it must continue, report it, and draw the right frame
-// once memory is available again.
+// Tests a streamed world when any of its allocations fails: it must report the failure, continue, and draw the right
+// frame once memory is available again.
 
 #include <chrono>
 #include <cstring>
@@ -28,14 +28,15 @@ struct Log {
   }
 };
 
-/// An engine that repeats a call if memory was lacking. It makes no assertions, since these allocate memory themselves.
+/// An engine that repeats a call if it was out of memory. It makes no assertions, because these allocate memory
+/// themselves.
 struct Session {
   sgm_field* field = nullptr;
   sgm_world_desc desc = SGM_WORLD_DESC_INIT;
   sgm_world* world = nullptr;
   bool looks = false;
   int frames = 0, digs = 0;
-  sgm_result wrong = SGM_OK;  ///< an error code other than out of memory
+  sgm_result wrong = SGM_OK;  ///< the first error code other than SGM_OK and out of memory
 
   ~Session() { sgm_world_destroy(world); }
 
@@ -98,7 +99,7 @@ struct Session {
       add(chunk.seams);
       add(chunk.coarser);
       add(view.body.hash);
-      // A mesh may have more seams than the drawn chunk uses.
+      // Count only the seams that are drawn: a mesh may have more.
       for (size_t face = 0; face < 6; ++face) add((chunk.seams >> face & 1) != 0 ? view.seams[face].hash : 0);
     }
     return hash;
@@ -123,7 +124,7 @@ sgm_world_desc troubledWorld(const Folder& folder, bool by_distance) {
   return desc;
 }
 
-/// A field to stream, with an allocator and a log of the test.
+/// A field to stream, in a runtime with the test's allocator and log.
 struct Scene {
   sgm_allocator allocator;
   Log log;
@@ -146,7 +147,7 @@ struct Outcome {
   uint64_t drawn = 0, edits = 0;
 };
 
-/// Runs one session with failures from begin() to end(). troubled(): returns whether an allocation has failed.
+/// Runs one session. Allocations fail from begin() to end(); troubled() returns whether any has failed.
 template <class Begin, class End, class Troubled>
 Outcome trouble(Failing& failing, bool by_distance, Begin begin, End end, Troubled troubled) {
   Outcome outcome;
@@ -164,7 +165,7 @@ Outcome trouble(Failing& failing, bool by_distance, Begin begin, End end, Troubl
       CHECK(scene.log.scarce <= 1);
       outcome = {session.drawnHash(), sgm_world_edits_hash(session.world)};
     }
-    // All edits are completely in the journal.
+    // The journal must contain all edits completely.
     sgm_world* again = nullptr;
     const sgm_world_desc world = troubledWorld(scene.folder, by_distance);
     REQUIRE(sgm_world_create(scene.field.get(), &world, &again, nullptr) == SGM_OK);
@@ -176,7 +177,8 @@ Outcome trouble(Failing& failing, bool by_distance, Begin begin, End end, Troubl
   return outcome;
 }
 
-/// Runs sessions in which the failures start later and later, until none occurs: temporary ones, and permanent ones.
+/// Runs sessions in which failures start later and later, until a session has no failure: once with temporary failures,
+/// once with permanent ones.
 template <class Run>
 void everLater(Run run) {
   for (uint32_t seed = 1; seed <= 2 * sgm::rounds(1); ++seed) {
@@ -249,7 +251,7 @@ TEST_CASE("a world whose memory never suffices says so once, tries little, and a
   for (int i = 0; i < 50; ++i) session.frame();
   REQUIRE(sgm_world_get_stats(session.world, &stats, nullptr) == SGM_OK);
   CHECK(stats.plans <= plans + 100);
-  CHECK(failing.left > left - 50 * 100);  // the number of allocations that were tried
+  CHECK(failing.left > left - 50 * 100);  // the difference is the number of allocations that were tried
   CHECK(scene.log.scarce == 1);
   CHECK(stats.idle == 0);
   const sgm_result waited = sgm_world_wait_idle(session.world, nullptr, nullptr, nullptr);

@@ -23,11 +23,11 @@ struct Drawn {
   friend bool operator==(const Drawn&, const Drawn&) = default;
 };
 
-/// Tracks which chunks are drawn, from the events alone.
+/// An engine that tracks, from the events alone, which chunks are drawn.
 class Engine {
  public:
   void poll(sgm_world* world) {
-    // Fewer events per call than are waiting: polling continues where the last call stopped.
+    // The array is smaller than the number of pending events, so polling must continue where the last call stopped.
     sgm_world_event events[7];
     for (size_t count = 7;; count = 7) {
       REQUIRE(sgm_world_poll(world, events, 0, &count, nullptr) == SGM_OK);
@@ -304,7 +304,7 @@ TEST_CASE("a world that measures gives sums of what it draws, and each chunk's o
     uint64_t border = 0;
     for (const uint64_t edges : of_chunk.border_edges) border += edges;
     CHECK(of_chunk.sums.border_edges == border);
-    // Each triangle has three directed edges; an inner edge belongs to two triangles, a border edge to one.
+    // Edge count: each triangle has three sides; an inner edge belongs to two triangles, a border edge to one.
     CHECK(2 * of_chunk.edges == view.body.index_count + border);
     area += of_chunk.sums.area;
     flux += of_chunk.sums.flux;
@@ -316,7 +316,7 @@ TEST_CASE("a world that measures gives sums of what it draws, and each chunk's o
   CHECK(measures.drawn.triangles == triangles);
   CHECK(std::fabs(measures.drawn.area - area) < 1e-9 * area);
   CHECK(std::fabs(measures.drawn.flux - flux) < 1e-9 * flux);
-  // Balls of 7 m, drawn at coarse levels: area and volume are nearly those of whole balls.
+  // The balls have a radius of 7 m. At coarse levels, the ratio of area to volume is only roughly that of a ball, 3/7.
   CHECK(measures.drawn.flux > 0);
   CHECK(measures.drawn.area / measures.drawn.flux > 3.0 / 7 * 0.9);
   CHECK(measures.drawn.area / measures.drawn.flux < 3.0 / 7 * 1.4);
@@ -329,7 +329,7 @@ TEST_CASE("a world that measures gives sums of what it draws, and each chunk's o
 
 TEST_CASE("another field takes a world's place, and only what it changes is meshed again", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
-  // Two layers of balls, one of them with a parameter.
+  // A grammar with two layers of balls, one of them with a parameter.
   const std::string text = std::string(kBalls) +
                            "param wide = 3m in 1m..4m animated;\n"
                            "layer rare cell 128m reach 8m detail 2m { start Rare; }\n"
@@ -368,7 +368,7 @@ TEST_CASE("another field takes a world's place, and only what it changes is mesh
   CHECK(after.chunks_outdated > 0);
   CHECK(4 * after.chunks_outdated < before.kept);
   CHECK(engine.drawn != small);
-  // The world's hash is that of a world created with the new field.
+  // The hash equals that of a world that was created with the new field.
   const int32_t low[3] = {0, 0, 0}, high[3] = {65536, 32768, 32768};
   uint64_t streamed = 0;
   REQUIRE(sgm_world_hash(world.get(), low, high, 0, &streamed, nullptr) == SGM_OK);
@@ -399,8 +399,8 @@ TEST_CASE("a grammar that was edited is reloaded into a world that streams", "[t
   comeToRest(world.get());
   engine.poll(world.get());
   const std::map<Key, Drawn> balls = engine.drawn;
-  // New fields (boxes instead of the balls, and a new layer) replace each other while the viewer moves on; the last one
-  // counts.
+  // Several new fields (boxes instead of balls, and a new layer) replace each other while the viewer moves; only the
+  // last one must remain.
   for (const char* rule : {"rule Ball { at(8m, 8m, 8m) box(9m); }\n", "rule Ball { at(8m, 8m, 8m) box(11m); }\n"}) {
     const std::string text =
         "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n" + std::string(rule);

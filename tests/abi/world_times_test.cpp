@@ -1,4 +1,4 @@
-// Tests the data for monitors of a world: settings, viewers and times, while an engine updates the world.
+// Tests the data that a world provides for monitoring: settings, viewers and times, while an engine updates the world.
 
 #include <algorithm>
 #include <atomic>
@@ -69,7 +69,7 @@ uint64_t meshedIn(const sgm_world_times& times) {
   return all;
 }
 
-/// Checks that a histogram's sum is possible for its counts and bucket bounds.
+/// Checks that a histogram's sum lies within the limits that its counts and bucket bounds imply.
 void checkSum(const sgm_time_histogram& times) {
   double least = 0, most = 0;
   size_t last = 0;
@@ -155,7 +155,7 @@ TEST_CASE("viewers come back as they were set") {
     REQUIRE(room == set.size());
     for (size_t i = 0; i < set.size(); ++i) {
       const sgm_viewer &a = set[i].viewer, &b = got[i].viewer;
-      // Positions are converted from units, whose number in a metre is a power of two, so nothing is rounded.
+      // The number of units in a metre is a power of two, so converting positions from units rounds nothing.
       CHECK(std::equal(a.position, a.position + 3, b.position));
       CHECK(std::equal(a.direction, a.direction + 3, b.direction));
       CHECK(std::equal(a.velocity, a.velocity + 3, b.velocity));
@@ -184,7 +184,7 @@ TEST_CASE("times are counted once a call and once a chunk", "[threads]") {
       polls += watched.pollAll();
     }
     watched.settle();
-    // An update that does nothing because events are unread counts as an update, too.
+    // An update that does nothing, because events are unread, must also be counted.
     CHECK(sgm_world_update(watched.world.get(), 1 << 20, nullptr) == SGM_INCOMPLETE);
     ++updates;
     polls += watched.pollAll();
@@ -201,15 +201,15 @@ TEST_CASE("times are counted once a call and once a chunk", "[threads]") {
     for (const sgm_time_histogram& level : times.mesh) checkSum(level);
     CHECK(times.update.sum > 0);
     CHECK(times.mesh[0].longest > 0);
-    // While jobs run, between one and the number of workers run concurrently, so job_seconds lies between clock_seconds
-    // and a multiple of it.
+    // While jobs run, at least one and at most all workers run, so job_seconds lies between clock_seconds and
+    // clock_seconds times the number of workers.
     CHECK(times.clock_seconds > 0);
     CHECK(times.job_seconds >= times.clock_seconds * 0.999);
     double bodies = 0;
     for (const sgm_time_histogram& level : times.mesh) bodies += level.sum;
     CHECK(times.job_seconds >= bodies * 0.999);
   }
-  // Calls with invalid arguments are not counted.
+  // Calls with invalid arguments must not be counted.
   CHECK(sgm_world_update(watched.world.get(), 0, nullptr) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(countOf(watched.times().update) == updates);
 }
@@ -244,7 +244,7 @@ TEST_CASE("a world is watched by other threads while its engine updates it", "[t
   sgm_world* const world = watched.world.get();
   std::atomic<bool> ends{false};
   std::atomic<unsigned> looks{0}, wrong{0};
-  // Catch2's checks may be used on one thread only.
+  // This thread must not use Catch2's checks, which are not thread-safe.
   const auto watch = [&] {
     sgm_world_times before = SGM_WORLD_TIMES_INIT;
     while (!ends) {
@@ -263,7 +263,8 @@ TEST_CASE("a world is watched by other threads while its engine updates it", "[t
       for (size_t i = 0; fine && i < count; ++i) fine = viewers[i].position[1] == static_cast<double>(i);
       fine = fine && countOf(times.update) >= countOf(before.update) && times.update.sum >= before.update.sum;
       before = times;
-      // The array is never empty: with NULL, the call would only return the count, which may be positive by now.
+      // Pass an array with at least one element: with NULL, the call would only return the number of chunks, which may
+      // be positive by now.
       std::vector<sgm_drawn_chunk> chunks(++drawn);
       const sgm_result gathered = sgm_world_get_drawn(world, chunks.data(), 0, &drawn, nullptr);
       fine = fine && (gathered == SGM_OK || gathered == SGM_INCOMPLETE);
@@ -280,7 +281,7 @@ TEST_CASE("a world is watched by other threads while its engine updates it", "[t
   for (int i = 0; i < 2; ++i) watchers.emplace_back(watch);
   unsigned frames = 0;
   const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-  // On a busy machine, the first chunk may take long.
+  // Continue until a chunk was meshed: on a busy machine, the first one may take long.
   const auto more = [&] {
     return (looks < 20 || watched.stats().chunks_meshed == 0) && std::chrono::steady_clock::now() < latest;
   };

@@ -20,7 +20,7 @@ using bench::must, bench::now;
 namespace {
 
 constexpr int kRuns = 5;
-constexpr size_t kBatchChunks = 256;  // number of chunks that a device takes in one batch
+constexpr size_t kBatchChunks = 256;  // number of chunks per batch of a device
 std::pmr::memory_resource* const heap = std::pmr::get_default_resource();
 
 std::vector<ChunkJob> jobsAround(const WorldField& world) {
@@ -34,7 +34,7 @@ std::vector<ChunkJob> jobsAround(const WorldField& world) {
 struct Run {
   double whole = 0, submitting = 0;  ///< ms
   size_t triangles = 0, with_surface = 0;
-  ContentHash hash;  ///< sum of the hashes of all parts
+  ContentHash hash;  ///< sum of the content hashes of all mesh parts
 };
 
 Run meshAll(Backend& backend, const std::vector<ChunkJob>& jobs) {

@@ -1,6 +1,6 @@
 #pragma once
-// The inputs of the benchmarks of pipeline stages: a grammar's world, and the chunks around a viewer in the sample
-// cave.
+// Inputs of the benchmarks of single pipeline stages: the world of a grammar, and the chunks around a viewer in the
+// sample cave.
 
 #include <fstream>
 #include <sstream>
@@ -21,7 +21,7 @@ T must(sgm::Result<T> result) {
   return std::move(*result);
 }
 
-/// Settings of a world with grid cells of 0.5 m. path: file of the grammar.
+/// Returns the settings of a world with grid cells of 0.5 m. path: the grammar's file.
 inline sgm::WorldFieldSettings settingsOf(const char* path, uint64_t seed) {
   std::ifstream in(path);
   std::stringstream text;

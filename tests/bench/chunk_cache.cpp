@@ -1,5 +1,5 @@
-// Compares the time to store a chunk on disk and read it with the time to mesh it, for the cave's chunks around a
-// viewer.
+// Compares the time to store a chunk in the disk cache and read it back with the time to mesh it, for the chunks around
+// a viewer in the cave.
 
 #include <unistd.h>
 
@@ -26,13 +26,14 @@ std::pmr::memory_resource* const heap = std::pmr::get_default_resource();
 
 using Bytes = std::pmr::vector<std::byte>;
 
-/// The chunks with triangles in a frame with grid cells of 0.5 m. Prints the time to mesh them.
+/// Returns the chunks with triangles around a viewer, with grid cells of 0.5 m. Prints the time to mesh them.
 std::vector<ChunkRecord> caveChunks(const char* path) {
   const WorldField world(bench::settingsOf(path, 7), heap);
   const auto jobs = must(makeThreadPool(1));
   const auto backend = must(makeBackend({}, *jobs, heap));
   const std::vector<ChunkRequest> requests = bench::aroundViewer(world.settings().finest_cell);
-  must(meshChunks(world, *backend, *jobs, requests));  // derives the cells
+  must(meshChunks(world, *backend, *jobs, requests));  // this first run derives the grammar cells, so that the second
+                                                       // one measures only meshing
   const double start = now();
   const auto chunks = must(meshChunks(world, *backend, *jobs, requests));
   const double took = now() - start;
@@ -57,7 +58,7 @@ Bytes plain(const ChunkRecord& record) {
   return bytes;
 }
 
-/// Microseconds for each chunk, the best of several runs over all chunks.
+/// Returns the average time per chunk in microseconds: the best of several runs over all chunks.
 template <class Work>
 double each(size_t count, const Work& work) {
   const auto all = [&] {
@@ -92,7 +93,8 @@ void files(const std::vector<ChunkRecord>& records, const std::filesystem::path&
   std::printf("encode and put %.0f us a chunk; get and decode %.0f us\n", put, get);
 }
 
-/// Meshes a frame with grid cells of 0.25 m, chunk by chunk as a world requests them, with and without the cache.
+/// Meshes the chunks around a viewer, with grid cells of 0.25 m, one by one as a world requests them: with and without
+/// the cache.
 void throughCache(const char* path, const std::filesystem::path& folder) {
   WorldFieldSettings settings = bench::settingsOf(path, 7);
   settings.finest_cell = kUnitsPerMetre / 4;

@@ -1,6 +1,6 @@
 // Compares the time to measure chunks with the time to mesh them. Each chunk is measured right after it was meshed, as
-// in a streamed world: on one thread, around a place of a sample grammar, at three levels, each chunk with a seam to
-// its coarser neighbour below. Prints medians over runs.
+// in a streamed world. Uses one thread, places in several sample grammars, three levels of detail, and for each chunk a
+// seam to a coarser neighbour below it. Prints medians over runs.
 //
 //   sgm_bench_chunk_measures FOLDER-OF-SAMPLE-GRAMMARS [RUNS]
 
@@ -26,10 +26,10 @@ using namespace sgm::measure;
 struct Place {
   const char* grammar;
   int32_t cell;
-  Int3 at;  ///< position in metres
+  Int3 at;  ///< centre of the meshed chunks in metres
   bool sharp;
 };
-constexpr int kAround = 2;  ///< number of chunks on each side of the place
+constexpr int kAround = 2;  ///< number of chunks in each direction from the centre
 
 struct Times {
   double meshing = 0, measuring = 0;

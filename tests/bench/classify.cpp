@@ -1,7 +1,9 @@
 // Measures how often models are classified correctly: models of every family with seeds and parameters from which no
 // reference histogram was made, and meshes of noise, which must be unknown.
 //
-//   sgm_bench_classify [MODELS] [SEED]       MODELS in all, equally many of each class (300); fails below 95 % correct
+//   sgm_bench_classify [MODELS] [SEED]       MODELS: total number, the same for each class (default: 300)
+//
+// Fails if fewer than 95 % of the models are classified correctly.
 
 #include <cmath>
 #include <cstdio>
@@ -35,8 +37,8 @@ struct Judge {
   std::exit(1);
 }
 
-/// A torus of quadrangles whose points are moved at random by up to `most` of an edge's length: a closed mesh of a kind
-/// from which no reference histogram is made.
+/// Makes noise: a torus of quadrangles whose points are moved at random by up to `most` times an edge's length. It is a
+/// closed mesh, but of no known class.
 masters::ModelMesh noise(double edge, double most, unsigned seed) {
   constexpr uint32_t kAround = 96, kAcross = 32;
   std::mt19937 random(seed);
@@ -80,7 +82,7 @@ int main(int argc, char** argv) {
       makers.push_back(std::move(*maker));
     }
     for (uint64_t i = 0; i < models / classes.size(); ++i) {
-      // A few models: taken from all grammars, not only from the first one.
+      // Step through the makers, so that even a few models come from all grammars, not only from the first one.
       const masters::ModelMaker& maker = makers[i * 7 % makers.size()];
       const auto mesh = maker.make(hashCombine(seed, i), **backend, **jobs);
       if (!mesh) giveUp(mesh.error());

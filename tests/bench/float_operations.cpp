@@ -10,7 +10,7 @@ namespace sgm::counted {
 
 using std::memcpy;
 
-/// Records which value was computed from which, since the last reset.
+/// Records a graph of values: which value was computed from which others, since the last reset.
 class Trace {
  public:
   enum Kind : uint8_t { counted, arithmetic, other };
@@ -19,7 +19,7 @@ class Trace {
     nodes_.push_back({{a, b, c}, kind});
     return static_cast<uint32_t>(nodes_.size() - 1);
   }
-  /// Marks a node as used; all nodes on which it depends count.
+  /// Marks a value as used, and counts its operation and those of all values on which it depends.
   void keep(uint32_t node) {
     pending_.push_back(node);
     while (!pending_.empty()) {
@@ -36,7 +36,7 @@ class Trace {
 
  private:
   struct Node {
-    uint32_t from[3];  ///< nodes of the operands; 0: a constant, or no operand
+    uint32_t from[3];  ///< operands, as indices into nodes_; 0 for a constant or no operand
     Kind kind;
   };
   std::vector<Node> nodes_ = {{{0, 0, 0}, counted}};
@@ -59,7 +59,7 @@ FN float uniformFloat(uint u) {
   return f;
 }
 
-/// A value, and the node of the operation that computed it.
+/// A number that knows its node in the graph: the operation that computed it.
 template <class T>
 struct Traced {
   T v{};
@@ -88,7 +88,7 @@ uint32_t made(Trace::Kind kind, const A& a, const B& b) {
 FN Real operator+(Real a, Real b) { return {a.v + b.v, made(Trace::arithmetic, a, b)}; }
 FN Real operator-(Real a, Real b) { return {a.v - b.v, made(Trace::arithmetic, a, b)}; }
 FN Real operator*(Real a, Real b) { return {a.v * b.v, made(Trace::arithmetic, a, b)}; }
-// A negation costs nothing: it is part of the operation that uses its result.
+// A negation is not counted: hardware does it as a part of the operation that uses the result.
 FN Real operator-(Real a) { return {-a.v, a.node}; }
 FN Bool operator<(Real a, Real b) { return {a.v < b.v, made(Trace::other, a, b)}; }
 FN Bool operator>(Real a, Real b) { return {a.v > b.v, made(Trace::other, a, b)}; }

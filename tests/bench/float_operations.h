@@ -1,7 +1,7 @@
 #pragma once
-// Counts the operations of sampling a field. It runs the interpreter with numbers that record how they were computed.
-// Operations on which no used result depends are not counted, for example those of a gradient if only the value is
-// used, because compilers remove them too.
+// Counts the floating-point operations of sampling a field, by running the interpreter with a number type that records
+// how each value was computed. Operations on which no used result depends are not counted, since compilers also remove
+// them; an example is the gradient if only the value is used.
 
 #include <cstdint>
 
@@ -10,15 +10,17 @@
 namespace bench {
 
 struct OperationCount {
-  uint64_t arithmetic = 0;  ///< additions, subtractions and products of floats
-  /// Comparisons, selections, conversions, integer operations; memory accesses whose address differs between samples.
+  uint64_t arithmetic = 0;  ///< number of additions, subtractions and products of floats
+  /// Number of comparisons, selections, conversions and integer operations, and of memory accesses whose address
+  /// differs between samples.
   uint64_t others = 0;
 };
 
-/// The operations of this thread's calls of the counting evaluator, since the last call of this function.
+/// Returns the number of operations that floatCountingKernels() has executed on this thread since the last call.
 OperationCount takeOperationCount();
 
-/// An evaluator with the same results as sgm::scalarKernels(), bit by bit, that counts operations; slow.
+/// Returns an evaluator that counts operations. Its results equal those of sgm::scalarKernels() bit for bit; it is
+/// slow.
 const sgm::FieldKernels& floatCountingKernels();
 
 }  // namespace bench

@@ -1,5 +1,5 @@
-// Replaces Highway's function that measures the clock by rdtscp when the library is loaded: valgrind rejects that
-// instruction if the processor does not announce it. Nothing here reads that clock.
+// Replaces Highway's function TimerResolution, which executes rdtscp when the library is loaded: valgrind rejects that
+// instruction if the processor does not announce it. No code here uses Highway's timer.
 
 #include <cstdint>
 

@@ -1,4 +1,5 @@
-// The work whose instructions instructions.sh counts: one chunk of a fixed field, stage by stage, on this thread.
+// The program whose instructions instructions.sh counts. It meshes one chunk of a fixed field on a single thread, one
+// pipeline stage per run.
 //
 //   sgm_bench_instructions --list            prints the names of the pieces of work
 //   sgm_bench_instructions PATH WORK         does one piece; PATH is the evaluator: scalar, sse4.2, avx2, avx512
@@ -18,9 +19,9 @@ namespace {
 
 using namespace sgm;
 
-constexpr int32_t kCell = 256;  // edge of a grid cell, in units
+constexpr int32_t kCell = 256;  // edge of a grid cell in units (1/1024 m)
 
-// A field with forty leaf shapes of several kinds: a smooth group with noise on it, a sum, and single shapes.
+// Makes a field with forty leaf shapes of several kinds: a smooth group with noise on it, a sum, and single shapes.
 GrammarChunk makeField() {
   GrammarChunk chunk;
   PathKey key{1};
@@ -80,7 +81,7 @@ GrammarChunk makeField() {
   return chunk;
 }
 
-/// A job system without threads other than the caller's.
+/// A job system without threads: each job runs at once on the calling thread.
 struct Alone final : JobSystem {
   unsigned concurrency() const override { return 1; }
   void submit(void (*function)(void*), void* argument, int) override { function(argument); }
@@ -158,7 +159,7 @@ struct Work {
     mesh_kernels->polygonize(samples, grid, true, scratch.mesh, part);
     mesh_kernels->hash(part);
   }
-  /// Does the same as a backend: makes a chunk's mesh from a compiled program.
+  /// Makes the complete mesh of a chunk from a compiled program, as a backend does.
   void meshWhole() {
     ChunkJob job;
     job.grid = grid;
@@ -167,7 +168,7 @@ struct Work {
     meshChunk({*kernels, *mesh_kernels}, job, scratch, made);
     part = std::move(made.body);
   }
-  /// Meshes a caller's grid of floats, with normals.
+  /// Meshes a grid of float samples that a caller provides, with normals.
   void meshGrid() {
     constexpr size_t side = kChunkSamples;
     std::vector<float> values(samples.q.size());
@@ -193,7 +194,7 @@ const std::map<std::string, Piece> kWork = {
 
 }  // namespace
 
-// Valgrind counts the instructions of the function with this name.
+// Runs one piece of work. Valgrind counts the instructions within the function of this name, so it must not be inlined.
 extern "C" __attribute__((noinline)) void measured(const Piece& piece, Work& on) { piece(on); }
 
 int main(int argc, char** argv) {
@@ -220,7 +221,7 @@ int main(int argc, char** argv) {
   work.sample();
   work.signs();
   const auto& piece = kWork.at(argv[2]);
-  piece(work);  // the first, uncounted run lets buffers grow
+  piece(work);  // this first run is not counted: it lets buffers grow to their size
   measured(piece, work);
   std::printf("%zu vertices, %zu triangles, %zu of a grid, %llu instructions kept\n", work.part.vertices.size(),
               work.part.indices.size() / 3, work.grid_triangles, static_cast<unsigned long long>(work.kept));

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Counts the instructions of a small fixed piece of work under valgrind and compares them with the recorded figures:
 # unlike a time, a count is the same on a busy machine. It may differ from the record by the tolerance in
-# instructions.json; a count that fell by more is an error too, so that the record stays true.
+# instructions.json. A count that fell by more is also an error, so that the record is updated.
 #
 #   instructions.sh PROGRAM COMPILER PATH [--record]
 #
@@ -54,7 +54,7 @@ done
 if ((failed)); then
   echo "If the change is meant, run: bash $0 $program '$compiler' $path --record" >&2
 fi
-# A deviation fails even where other figures are missing: only a run without deviations is skipped for a missing figure.
+# A deviation always fails. A missing recorded figure makes the test skipped, but only if no other figure deviates.
 if ((!failed)) && [[ -n $unknown ]]; then
   skip "no figures for '$compiler, $path' and$unknown yet: run with --record"
 fi

@@ -2,9 +2,9 @@
 //
 //   sgm_bench_kernels [GRAMMAR [CELL_UNITS]]
 //
-// Loads: 256 chunks with a surface around a viewer in the sample cave, alone and in several concurrent batches as
-// worlds submit them; cubes of 64^3 and 256^3 cells around that viewer. Each load is meshed repeatedly by launches
-// alone. Fails if the meshes of a load differ from the CPU's.
+// The loads are 256 chunks with a surface around a viewer in the sample cave, as a single batch and as several
+// concurrent batches, as worlds submit them; and cubes of 64^3 and 256^3 cells around that viewer. Each load is meshed
+// repeatedly by kernel launches without copies. Fails if the meshes of a load differ from the CPU's.
 
 #include <algorithm>
 #include <cstdio>
@@ -34,15 +34,16 @@ void check(const Result<void>& result) {
   if (!result) throw std::runtime_error(result.error().message);
 }
 
-/// Chunks to mesh, and the CPU's results for them.
+/// Chunks to mesh on the GPU, and the CPU's results with which the GPU's are compared.
 struct Load {
   std::string name;
   std::vector<ChunkJob> jobs;
-  size_t distinct = 0;  ///< number of different chunks; the list then repeats them
+  size_t distinct = 0;  ///< number of different chunks at the beginning of `jobs`, which the rest of the list repeats
   size_t with_surface = 0, vertices = 0, indices = 0;
-  uint64_t fields = 0;  ///< instructions of the pruned programs, each counted once for each sample
+  uint64_t fields = 0;  ///< sum, over all samples, of the number of instructions in the pruned program that evaluates
+                        ///< the sample
   bench::OperationCount floats;
-  ContentHash hash;  ///< sum of the hashes of all parts
+  ContentHash hash;  ///< sum of the content hashes of all mesh parts
 
   void add(const ChunkMesh& mesh) {
     const auto addPart = [this](const MeshPart& part) {
@@ -63,7 +64,7 @@ ChunkMesh meshOnCpu(const FieldKernels& kernels, const ChunkJob& job, ChunkScrat
   return mesh;
 }
 
-/// Meshes the load on the CPU, and counts the operations.
+/// Meshes the load on the CPU, and counts its floating-point operations.
 void finish(Load& load) {
   bench::takeOperationCount();
   ChunkScratch scratch(heap);
@@ -113,7 +114,7 @@ Load cubeLoad(const WorldField& world, int cells) {
   return load;
 }
 
-/// The batches of a load, with their programs in GPU memory.
+/// The batches of a load, whose programs stay in GPU memory.
 class Resident {
  public:
   Resident(cuda::Device& device, const cuda::Room& room, const Load& load)
@@ -128,7 +129,8 @@ class Resident {
     }
   }
 
-  /// Launches all kernels of all batches `repeats` times. The kernels of a batch run in order, in its stream.
+  /// Launches all kernels of all batches `repeats` times. Each batch has its own stream, in which its kernels run in
+  /// order.
   void run(int repeats) {
     for (int i = 0; i < repeats; ++i) {
       for (const auto& part : parts_) {
@@ -139,7 +141,7 @@ class Resident {
     for (const auto& part : parts_) check(part->memory.stream->wait());
   }
 
-  /// The time of each kernel by itself, including launching and waiting.
+  /// Returns the time of each kernel run alone, including the launch and the wait.
   std::vector<double> eachKernel() {
     std::vector<double> times(static_cast<size_t>(cuda::Kernel::count));
     for (const auto& part : parts_) {
@@ -156,7 +158,7 @@ class Resident {
     return times;
   }
 
-  /// Meshes the load including uploads and downloads. Returns the sum of the parts' hashes.
+  /// Meshes the load including uploads and downloads. Returns the sum of the parts' content hashes.
   ContentHash whole() {
     ContentHash hash;
     for (const auto& part : parts_) check(mesher_->submit(part->plan, part->memory));
@@ -183,7 +185,7 @@ class Resident {
   std::vector<std::unique_ptr<Part>> parts_;
 };
 
-/// Bytes per second that a copy within the device's memory reads and writes.
+/// Returns the memory bandwidth of a copy within device memory, in bytes read and written per second.
 double copyBandwidth(cuda::Device& device) {
   const auto stream = must(device.makeStream());
   const size_t bytes = std::min<uint64_t>(device.info().memory / 8, size_t{1} << 30);
@@ -197,7 +199,7 @@ double copyBandwidth(cuda::Device& device) {
   return 2e3 * static_cast<double>(bytes) / bench::timed(kWarm, kRuns, copy).least;
 }
 
-/// Milliseconds to submit almost no work to the device, and to wait for it.
+/// Returns the milliseconds that a minimal submission to the device and the wait for it take.
 double leastWait(cuda::Device& device) {
   const auto stream = must(device.makeStream());
   cuda::Memory some;
@@ -209,11 +211,11 @@ double leastWait(cuda::Device& device) {
   return bench::timed(kWarm, 100, clear).median;
 }
 
-/// Maximum number of additions, subtractions or products per second: the arithmetic contract forbids fused operations,
-/// which manufacturers count as two.
+/// Returns the device's peak number of additions, subtractions or products per second. It is half of the manufacturer's
+/// figure, which counts a fused multiply-add as two operations; the arithmetic contract forbids these.
 double floatRate(const cuda::DeviceInfo& info) {
   const int capability = 10 * info.capability_major + info.capability_minor;
-  const double lanes = capability < 86 ? 64 : 128;  // single-precision lanes of a multiprocessor
+  const double lanes = capability < 86 ? 64 : 128;  // number of single-precision lanes of a multiprocessor
   return lanes * info.processors * info.clock * 1e3;
 }
 
@@ -222,8 +224,8 @@ constexpr const char* kKernelNames[] = {
     "seam vertices", "list cells", "body triangles",   "seam triangles",  "sums"};
 static_assert(std::size(kKernelNames) == static_cast<size_t>(cuda::Kernel::count));
 
-/// Bytes that meshing must transfer at least: samples, read once, and indices, written once; with `vertices` also the
-/// packed bytes of vertices, without their normals, which need the field again.
+/// Returns the minimum number of bytes that meshing must transfer: it reads each sample once and writes each index
+/// once. With `vertices`, it also writes the packed vertices, but without normals, which need the field again.
 double meshingBytes(const Load& load, bool vertices) {
   return static_cast<double>(load.jobs.size() * cuda::kSamples * sizeof(int32_t) + load.indices * sizeof(uint32_t) +
                              (vertices ? load.vertices * sizeof(Vertex) : 0));

@@ -19,15 +19,15 @@ namespace {
 
 using namespace sgm;
 
-constexpr int kHouses = 330;  // number of rules, each of six lines
+constexpr int kHouses = 330;  // number of houses in the long grammar
 
 int fail(const std::string& message) {
   std::fprintf(stderr, "sgm_bench_language: %s\n", message.c_str());
   return 1;
 }
 
-/// A grammar of houses with guards, weights, displacements, cuts, loops and labels, each with two alternatives, and a
-/// street of all houses.
+/// Makes a grammar of houses with guards, weights, displacements, cuts, loops and labels, each in two alternatives, and
+/// a street with all houses.
 std::string longGrammar() {
   const auto number = [](int i) { return std::to_string(i); };
   std::string text =
@@ -49,7 +49,8 @@ std::string longGrammar() {
   return text;
 }
 
-/// A grammar of castles with empty tiles: 12 tiles, in grammar cells of 16 by 4 by 16 places.
+/// A grammar of castles by wave function collapse, with empty tiles: 12 tiles, in lattices of 16 by 4 by 16 tiles per
+/// grammar cell.
 const char* const kCastles = R"(sgm 1;
 domain infinite axes xz;
 layer castles cell 96m reach 96m { start Castle; }
@@ -73,9 +74,9 @@ rule Castle {
 )";
 constexpr double kPlaces = 16 * 4 * 16;
 
-constexpr int32_t kBlocks = 4;  // blocks along each axis
+constexpr int32_t kBlocks = 4;  // number of derived grammar cells (city blocks) along each horizontal axis
 
-/// The result of deriving 4 by 4 grammar cells of every layer.
+/// Time and result of deriving 4 by 4 grammar cells of every layer.
 struct Derived {
   bench::Times times;
   size_t shapes = 0, bytes = 0;

@@ -10,8 +10,8 @@
 namespace bench {
 namespace {
 
-// Whether an edge lies on an outer face of the meshed cube. Such an edge may be open, since the surface continues
-// outside.
+// True if an edge lies on an outer face of the meshed cube. Such an edge may be open, since the surface continues
+// outside the cube.
 bool inOuterFace(const float* a, const float* b, double extent) {
   for (int axis = 0; axis < 3; ++axis) {
     const double p = a[axis], q = b[axis];
@@ -45,7 +45,7 @@ Shape measure(const Mesh& mesh, double extent) {
   std::sort(opposite.begin(), opposite.end());
   std::vector<bool> used(mesh.positions.size() / 3);
   for (const uint32_t i : mesh.indices) used[i] = true;
-  // An edge counts once, independent of its direction in the triangles.
+  // For Euler's formula, an edge counts once, whatever its direction in the triangles.
   std::vector<uint64_t> undirected;
   undirected.reserve(edges.size());
   for (const uint64_t e : edges) undirected.push_back(std::min(e, e << 32 | e >> 32));

@@ -1,5 +1,5 @@
 #pragma once
-// Measures by which meshes of the same surface are compared, and the times in a row of the table.
+// Measures by which meshes of the same surface are compared, and functions that measure times.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace bench {
 
-/// A mesh with float positions in units of a grid cell: x y z for each vertex, three indices for each triangle.
+/// A triangle mesh. positions: x y z of each vertex, in units of a grid cell; indices: three per triangle.
 struct Mesh {
   std::vector<float> positions;
   std::vector<uint32_t> indices;
@@ -17,35 +17,37 @@ struct Mesh {
 struct Shape {
   size_t vertices = 0, triangles = 0;
   double area = 0;        ///< square cells
-  size_t open_edges = 0;  ///< directed edges without an opposite edge, except those on the cube's outer faces
+  size_t open_edges = 0;  ///< number of directed edges without an opposite edge, except those on the meshed cube's
+                          ///< outer faces
   long euler = 0;         ///< Euler characteristic: used vertices - edges + triangles
 };
 
-/// extent: edge of the cube that contains the mesh, in grid cells.
+/// Measures a mesh. extent: edge of the cube that contains the mesh, in grid cells.
 Shape measure(const Mesh& mesh, double extent);
 
 struct Times {
   double median = 0, least = 0, most = 0;  ///< milliseconds
   int runs = 0;
-  double processor = 0;  ///< set by timed() alone: processor time of all threads divided by wall time, over all runs
+  double processor = 0;  ///< processor time of all threads divided by wall time, over all runs; set by timed() only
 };
 
-/// Milliseconds of processor time that all threads of this process have used.
+/// Returns the processor time, in milliseconds, that all threads of this process have used.
 double processorTime();
 
-/// Peak resident memory of this process, MB.
+/// Returns the peak resident memory of this process in MB.
 double peakMemory();
 
-/// Calls work `warm_up` times without and then `runs` times with time measurement.
+/// Calls work() `warm_up` times without and then `runs` times with measuring its time.
 template <class Work>
 Times timed(int warm_up, int runs, Work&& work);
 
-/// Milliseconds of a monotonic clock.
+/// Returns the time of a monotonic clock in milliseconds.
 double now();
 
 Times statistics(std::vector<double> milliseconds);
 
-/// Restricts this process to the first `threads` processors that it may use, so that a row really measures that number.
+/// Restricts this process to the first `threads` of the processors that it may use, so that a result really belongs to
+/// that number of threads.
 void pin(int threads);
 
 template <class Work>

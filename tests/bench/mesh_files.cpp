@@ -1,6 +1,6 @@
-// Measures reading mesh files: time on one core, and memory beyond the file's own bytes. In the first run, memory comes
-// from the system, which on a virtual machine may take longer than the reading (the column "of memory" is the time to
-// touch that much memory); later the allocator has it.
+// Measures reading mesh files: time on one core, and memory beyond the file's own bytes. In the first run, the
+// allocator gets new memory from the system, which on a virtual machine may take longer than reading the file: the
+// column "of memory" is the time to touch that much new memory. Later runs reuse the allocator's memory.
 //
 //   sgm_bench_mesh_files [TRIANGLES [RUNS]]
 
@@ -48,7 +48,7 @@ namespace {
 
 using namespace sgm;
 
-/// A bumpy torus of `side` by `side` quadrangles, with normals and four materials.
+/// Makes a bumpy torus of `side` by `side` quadrangles, with normals and four materials.
 WorldMesh bumpyTorus(uint32_t side) {
   WorldMesh mesh;
   for (uint32_t i = 0; i < side * side; ++i) {
@@ -65,7 +65,7 @@ WorldMesh bumpyTorus(uint32_t side) {
   return mesh;
 }
 
-/// The same mesh with separate points for each triangle, as for flat shading.
+/// Returns the same mesh with separate points for each triangle, as for flat shading.
 WorldMesh withoutSharedPoints(const WorldMesh& mesh) {
   WorldMesh out;
   for (const uint32_t corner : mesh.indices) {
@@ -76,7 +76,7 @@ WorldMesh withoutSharedPoints(const WorldMesh& mesh) {
   return out;
 }
 
-/// Milliseconds that the system needs to provide this much memory for the first time.
+/// Returns the milliseconds that the system needs to provide this much new memory (page faults).
 double touched(size_t bytes) {
   malloc_trim(0);
   const double start = bench::now();

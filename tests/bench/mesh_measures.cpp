@@ -1,6 +1,5 @@
 // Measures the time of each part of measureMesh() for a torus and for the surface of a random field: wall time, and
-// processor time, which is larger if threads share the work, and smaller if they wait. The first run includes the time
-// to obtain memory.
+// processor time of all threads. The first run includes the time to get memory from the system.
 //
 //   sgm_bench_measure [TRIANGLES [THREADS [FILE.glb]]]     FILE.glb: writes the torus for sgm measure
 
@@ -103,7 +102,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   parts("torus", ring, **jobs);
-  // The surface has about 10 triangles for each lattice point.
+  // Choose the lattice's size for the wanted number of triangles: the surface has about 10 for each lattice point.
   std::mt19937 random(1);
   parts("random field", randomSurface(random, static_cast<uint32_t>(std::cbrt(triangles / 10)), 0.5), **jobs);
   return 0;

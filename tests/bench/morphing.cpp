@@ -1,10 +1,10 @@
-// Measures the savings by morphic rules: nodes, operations and time of a scene whose shapes are halfway between two,
-// written in several ways.
+// Measures the savings by morphic rules: nodes, operations and time of a scene whose shapes are halfway between two
+// shapes, for several ways of writing the same scene.
 //
 //   sgm_bench_morphing [RUNS]
 //
-// The paper gives 41 operations for each point for morphing by operations on both shapes, and 14 if a morphic
-// production collapses them (equations in its section 8): a third.
+// According to the paper (equations in its section 8), morphing by operations on both shapes takes 41 operations per
+// point, and a morphic production collapses these to 14, a third.
 
 #include <cstdio>
 #include <cstdlib>
@@ -24,7 +24,7 @@ using namespace sgm;
 
 struct Way {
   std::string name;
-  std::string body;  ///< text of the rule Body, the shape halfway
+  std::string body;  ///< text of the rule Body: the shape halfway between the two, as this variant writes it
 };
 
 constexpr const char* kHead =
@@ -73,7 +73,8 @@ bool costOf(const std::string& text, double t, int runs, Cost& cost) {
   if (!program) return fail(program.error().message);
   cost.instructions = (*program)->instrs.size();
 
-  // A brick of samples around each shape's middle, as in meshing, so that no shape is pruned by its bounding box.
+  // Sample a brick around the middle of each shape, as meshing does, so that no shape is skipped because its bounding
+  // box is far.
   std::vector<int32_t> x, y, z;
   for (const ProgramGroup& group : (*program)->groups) {
     const IntBox& box = group.influence;
@@ -87,7 +88,8 @@ bool costOf(const std::string& text, double t, int runs, Cost& cost) {
   const Points points{x.data(), y.data(), z.data(), x.size()};
   EvalScratch scratch;
   bench::takeOperationCount();
-  constexpr size_t kAtOnce = 64;  // the instruction counter stores every operation of a call
+  constexpr size_t kAtOnce = 64;  // number of samples per call: few, because the counting evaluator stores every
+                                  // operation of a call
   for (size_t i = 0; i < x.size(); i += kAtOnce) {
     const Points some{x.data() + i, y.data() + i, z.data() + i, kAtOnce};
     bench::floatCountingKernels().samples((*program)->view(), some, scratch, counted.data() + i);
@@ -112,7 +114,7 @@ int main(int argc, char** argv) {
   for (const Way& way : ways()) {
     const bool classic = way.name.find("classic") != std::string::npos;
     for (const double t : {0.5, 1.0}) {
-      if (classic && t == 1.0) continue;  // the classic evaluation has no parameter t
+      if (classic && t == 1.0) continue;  // the classic evaluation has no parameter t, so measure it only once
       Cost cost;
       if (!costOf(std::string(kHead) + way.body, t, runs, cost)) return 1;
       if (classic) united = cost.operations;

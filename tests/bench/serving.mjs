@@ -1,6 +1,6 @@
-// Measures what the metrics service costs a flight: the processor time of the service's threads as a share of that of
-// all threads, while a page and a Prometheus poll the service as often as usual; and the time on the engine's thread
-// with and without the service.
+// Measures how much the metrics service costs a flight, while a page and a Prometheus poll it as often as usual: the
+// share of the service's threads in the processor time of all threads, and the time on the engine's thread with and
+// without the service.
 //
 //   node tests/bench/serving.mjs SGM GRAMMAR [FRAMES] [PAIRS]
 import { spawn } from 'node:child_process';
@@ -9,7 +9,7 @@ import fs from 'node:fs';
 const [sgm, grammar, frames = '3000', pairs = '4'] = process.argv.slice(2);
 const served = new Set(['sgm watcher', 'sgm work', 'sgm operations', 'sgm inspector']);
 
-/// Nanoseconds of processor time of the living threads of process `pid`, by thread name.
+/// Returns the processor time, in nanoseconds, of each running thread of process `pid`, by thread name.
 function timesOf(pid) {
   const times = {};
   for (const task of fs.readdirSync(`/proc/${pid}/task`)) {

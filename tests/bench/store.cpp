@@ -1,9 +1,10 @@
-// Measures the savings by streaming from a baked store: reads and derives the same chunks of the cave in one run.
+// Measures the savings by streaming from a baked store: in one run, reads chunks of the cave from the store, and
+// derives and meshes the same chunks.
 //
 //   sgm_bench_store FOLDER [METRES] [LEVELS] [ADDRESS]
 //
-//   FOLDER   where the store is made, on the disk to be measured
-//   ADDRESS  http://...: URL under which a web server offers that folder; the store is then read from there
+//   FOLDER   folder for the store, on the disk to be measured
+//   ADDRESS  http://... URL of that folder on a web server; the store is then read from there
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -43,8 +44,8 @@ WorldFieldSettings caveSettings() {
   return settings;
 }
 
-/// Milliseconds of each chunk, one after the other. Parts in a store on a server are searched beforehand, as in a
-/// streamed world.
+/// Meshes the chunks one after the other; returns the milliseconds of each. Index look-ups in a store on a server
+/// happen beforehand, as in a streamed world.
 std::vector<double> meshAll(const ChunkMesher& mesher, const std::vector<ChunkRequest>& requests) {
   std::vector<double> times;
   for (const ChunkRequest& request : requests) {
@@ -103,7 +104,8 @@ int main(int argc, char** argv) {
                   static_cast<double>(merged.world.measured.triangles),
               static_cast<unsigned long long>(merged.world.contents));
 
-  // Requests for chunks that have a surface, with three of their seams, as a world most often requests them.
+  // Collects requests for chunks that have a surface, with three of their seams, which is what a world requests most
+  // often.
   std::vector<ChunkRequest> requests;
   const ChunkMesher derived{world, *backend, *jobs, memory};
   for (const store::TileKey& tile : store::tilesOf(region)) {
@@ -117,7 +119,7 @@ int main(int argc, char** argv) {
     }
   }
   for (int round = 0; round < 3; ++round) {
-    // Nothing is derived or loaded yet, as when a viewer arrives at a new place.
+    // Start with new worlds in which nothing is derived or loaded yet, as when a viewer arrives at a new place.
     const WorldField fresh(caveSettings(), memory), other(caveSettings(), memory);
     const std::shared_ptr<BakedParts> source = orDie(store::openStores(std::array{place}, {}, memory));
     ChunkMesher stored{other, *backend, *jobs, memory};

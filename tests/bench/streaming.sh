@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Measures the streaming figures with `sgm fly`, and with sgm_bench_crowds if that lies in the same folder. Writes
-# streaming.csv, streaming.svg, and a table with the targets on standard output. No time makes the script fail: exit
-# status 1 only if a flight fails, or a surface was not closed.
+# Measures the figures of streaming with `sgm fly`, and with sgm_bench_crowds if that program is in the same folder.
+# Writes streaming.csv and streaming.svg, and prints a table with the targets. A slow time is no failure: the exit
+# status is 1 only if a flight fails or a surface was not closed.
 #
 #   streaming.sh SGM [OUT_DIR] [--long | --quick]
 #
 #   SGM       the command
-#   OUT_DIR   for the results and each flight's own report (default: out/streaming)
-#   --long    digs for a minute, 11,134 frames in each of the nine flights that are checked: 100,206, and half an hour
-#             over new ground
-#   --quick   a few frames of everything, to see that it runs: the figures mean nothing
+#   OUT_DIR   folder for the results and the reports of all flights (default: out/streaming)
+#   --long    digs for a minute, checks 11,134 frames in each of nine flights, and flies over new ground for half an
+#             hour
+#   --quick   runs only a few frames of everything, to test this script: the figures mean nothing
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 sgm='' out='' mode=''
@@ -62,7 +62,7 @@ for speed in "${speeds[@]}"; do
       --top-level 5 --view 200 --teleports 10 --edits 5 --unpaced --check
   done
 done
-# crowd NAME ROW OPTION...: runs sgm_bench_crowds; writes its figures and its command to NAME.crowd.json.
+# crowd NAME ROW OPTION...: runs sgm_bench_crowds; writes its figures and the command to NAME.crowd.json.
 crowd() {
   local name=$1 status=0 report=$out/$1.report
   shift

@@ -13,8 +13,8 @@ const crowds = read('.crowd.json');
 const percent = (share) => 100 * share;
 const never = (ms) => (ms < 0 ? Infinity : ms);
 const unclosed = (r) => (r.checked ? r.open_edges + r.nonmanifold_edges + r.overlaps + r.whole_failures : Infinity);
-// Each line of the table: its name, the flights it is taken from (of), the value in a report (null: missing; undefined:
-// the flight had nothing to measure), the upper (most) or lower (least) bound that is the target, and the unit.
+// The rows of the table. line: name; of: names of the flights that it uses; value: the value in a report (null:
+// missing; undefined: there was nothing to measure); most, least: the target, as an upper or a lower bound; unit.
 const lines = [
   { line: 'caller\'s thread, 99 % of frames', of: /^walk/, value: (r) => r.main_thread_ms.p99, most: 1, unit: 'ms' },
   { line: 'caller\'s thread, longest frame', of: /^walk/, value: (r) => r.main_thread_ms.max, most: 2, unit: 'ms' },
@@ -28,13 +28,13 @@ const lines = [
   { line: 'level 0 saved by reachability', of: /^reach/, value: (r) => percent(r.finest_saved), least: 40, unit: '%',
     more: (r) => `${r.finest_meshed} chunks instead of ${r.finest_meshed_by_distance}` },
   { line: 'stale work gone 2 frames after a leap', of: /^leaps/, least: 95, unit: '%',
-    // On a busy machine, the queue may be empty at every teleport: then there is nothing to measure.
+    // On a busy machine, the queue may be empty at every teleport: then there is nothing to measure (undefined).
     value: (r) => (r.work_at_teleports.every((work) => work === 0) ? undefined
       : r.stale_after_2_frames && percent(1 - r.stale_after_2_frames.worst)),
     more: (r) => `work at the leaps: ${r.work_at_teleports.join(' ')}` },
   { line: 'changes of what is drawn until a dig is', of: /^digs/, value: (r) => (r.digs > 0 ? r.dig_frames.max : null),
     most: 2, unit: '', more: (r) => `${r.digs} digs` },
-  // It has no target; it must not grow with the number of digs.
+  // This row has no target; it shows that the number does not grow with the number of digs.
   { line: 'chunks that waited while digging', of: /^digs/, value: (r) => r.most_queued_while_digging, unit: '' },
   { line: '64 walkers see cells of 4 m within 32 m', of: /^crowd$/, value: (r) => never(r.all_drawn_s), most: 10,
     unit: 's' },
@@ -70,7 +70,7 @@ function measure(line) {
     const empty = values.length > 0 && values.every((v) => v === undefined);
     return { line: line.line, asked, reached: empty ? 'nothing to measure' : 'not measured', met: 'no', command };
   }
-  // Sorted with the best value first.
+  // Sort the values, the best one first.
   values.sort((a, b) => (line.least !== undefined ? b - a : a - b));
   const worst = values[values.length - 1], median = values[values.length >> 1];
   const meets = (v) => (line.least !== undefined ? v >= line.least : v <= line.most);
@@ -83,7 +83,8 @@ function measure(line) {
 
 const escaped = (s) => s.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;');
 
-/// Draws the worst and the median value of each row relative to its target; at the line 1, the target is met exactly.
+/// Draws a chart of the worst and the median value of each row relative to its target; at the line 1, a value equals
+/// its target.
 function chart(rows) {
   const shown = rows.filter((row) => row.bound > 0 && Number.isFinite(row.worst));
   const left = 300, unit = 260, height = 30, top = 40, width = left + 2 * unit + 240;

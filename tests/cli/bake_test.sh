@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests sgm bake and sgm store: a bake has the same bytes however the work was divided, a world streamed from it is the
+# Tests sgm bake and sgm store: a bake has the same bytes however the work is divided, a world streamed from it is the
 # same as a derived one, and invalid calls are refused.
 source "$(dirname "$0")/common.sh"
 cave=$SOURCE/tests/bench/grammars/cave.sgm
@@ -19,7 +19,7 @@ name=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).world' "
 expect 0 "$SGM" bake "${world[@]}" --out one
 out_has 'already baked'
 
-# Three workers run concurrently after one was killed in the middle of its work, and the result is the same.
+# After one worker was killed in the middle of its work, three workers run concurrently; the result must be the same.
 expect 0 "$SGM" bake "${world[@]}" --out many --shard 5/50
 timeout -s KILL 0.15 "$SGM" bake "${world[@]}" --out many --shard 1/3 --threads 1 >/dev/null 2>&1
 expect 1 "$SGM" bake "${world[@]}" --out many --merge
@@ -27,7 +27,7 @@ err_has 'tiles are not baked yet'
 one_line
 for shard in 2 0 1; do "$SGM" bake "${world[@]}" --out many --shard "$shard/3" >"shard$shard.txt" 2>&1 & done
 wait
-# The result does not depend on file times, which come from the clocks of the workers' machines.
+# The result must not depend on file times, since these come from the clocks of the workers' machines.
 find many -type f | awk 'NR % 2' | xargs touch -d 2099-01-01
 find many -type f | awk 'NR % 2 == 0' | xargs touch -d 1971-01-01
 expect 0 "$SGM" bake "${world[@]}" --out many --shard 1/3 --json
@@ -52,7 +52,7 @@ one_line
 expect 0 "$SGM" store info one --json
 json 'j.worlds[0].from.grammar === "cave.sgm" && j.worlds[0].from.seed === 3 && j.worlds[0].from.parameters.boxy === 0.3'
 
-# A store without its packs fails verification, with a grammar or without.
+# A store without its pack files must fail verification, with and without a grammar.
 cp -r one bare
 rm -r bare/packs
 expect 1 "$SGM" store verify bare "$cave" --seed 3 --region 0,0,0:1,1,1 --samples 5 --backend cpu
@@ -65,7 +65,7 @@ expect 0 "$SGM" store gc bare
 [[ -z $(ls bare/worlds) ]] || failed "a manifest stays without its index"
 rm -r bare
 
-# A world streamed from the store is the same as a derived one, also with digs on top.
+# A world streamed from the store must be the same as a derived one, also with edits on top.
 printf '{"points": [[40, 60, 60], [110, 96, 96], [120, 96, 100]]}' >path.json
 flight=(fly "$cave" --seed 3 --path path.json --speed 60 --frames 150 --finest 16 --top-level 5 --view 120 --unpaced --check
   --backend cpu --json)
@@ -79,7 +79,7 @@ for digs in 0 4; do
   json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits > 500 && j.stores.damaged === 0 && j.stores.bytes > 0"
 done
 
-# Damaged parts of a store are derived instead.
+# If parts of a store are damaged, their chunks must be derived instead.
 for pack in one/packs/*/*.sgmp; do printf 'xxxxxxxx' | dd of="$pack" bs=1 seek=64 conv=notrunc 2>/dev/null; done
 expect 0 "$SGM" "${flight[@]}" --edits 0 --store one
 json "j.world_hash === '${hashes[0]}' && j.stores.damaged > 0 && j.open_edges === 0"
@@ -99,7 +99,7 @@ err_has 'have cells of'
 one_line
 rm -r finer
 
-# A second bake into the same store with one parameter changed: contents that are equal are stored once.
+# Bakes a second time into the same store, with one parameter changed: equal contents must be stored only once.
 small=("$cave" --seed 3 --region 192,0,0:384,192,192 --levels 1..2 --backend cpu)
 expect 0 "$SGM" bake "${small[@]}" --out two
 expect 0 "$SGM" bake "${small[@]}" --set boxy=0.9 --out two --json
@@ -118,7 +118,7 @@ expect 0 "$SGM" store gc two
 [[ -z $err ]] || failed "words of nothing: $err"
 expect 0 "$SGM" store verify two
 
-# A process that wants to change a store waits while another one holds its lock, and reports that.
+# While one process holds the store's lock, a second process that changes the store must wait and report that.
 exec {held}<two/format
 flock "$held"
 (sleep 1 && flock -u "$held") &
@@ -128,7 +128,7 @@ one_line
 exec {held}<&-
 wait
 
-# Shards started by hand, as another job scheduler would start them.
+# Starts the shards by hand, as a job scheduler other than Slurm would.
 PATH=$(dirname "$SGM"):$PATH
 for share in 1 2; do SGE_TASK_ID=$share expect 0 bash "$SOURCE/samples/bake/share.sh" 2 sgm bake "${small[@]}" --out three; done
 expect 0 bash "$SOURCE/samples/bake/share.sh" end sgm bake "${small[@]}" --out three
@@ -136,7 +136,7 @@ out_has 'complete and closed'
 expect 2 bash "$SOURCE/samples/bake/share.sh" 2 sgm bake "${small[@]}" --out three
 err_has 'set SHARE, from 0 to 1'
 
-# Invalid calls are refused with one line, and leave no files behind.
+# Invalid calls must be refused with a one-line message, and leave no files.
 expect 1 "$SGM" bake "$cave" --seed 3 --region 0,0,0:64,64,64 --levels 0..2 --backend cpu --out one
 err_has 'has another region of this world'
 one_line
@@ -165,7 +165,7 @@ expect 2 "$SGM" bake "$cave" --out new
 err_has 'choose a part with --region'
 expect 1 "$SGM" bake "$cave" --region -2000000,-2000000,-2000000:2000000,2000000,2000000 --out new
 err_has 'more than 4194304 tiles'
-# A full disk, simulated by a limit on file sizes.
+# Simulates a full disk by a limit on file sizes.
 expect 4 bash -c 'trap "" XFSZ; ulimit -f 8; exec "$@"' bash "$SGM" bake "${small[@]}" --out full
 one_line
 expect 0 "$SGM" bake "${small[@]}" --out full

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests sgm bench paper: its figures follow from its times, all backends' meshes are equal, and each missing measurement
+# Tests sgm bench paper: its figures follow from its times, all backends make equal meshes, and each missing measurement
 # has a reason.
 source "$(dirname "$0")/common.sh"
 
@@ -16,25 +16,25 @@ json 'j.stages.every(s => s.chunks >= 1 && s.operations > 1000 && s.cell_units =
 json 'j.stages.every(s => s.rows.slice(0, 2).every(r => r.measured && r.device && r.triangles > 0 && r.seconds > 0 && r.first_seconds > 0))'
 json 'j.stages.every(s => s.rows[0].workers === 1 && s.rows[0].speedup === 1 && s.rows[0].efficiency === 1)'
 json 'j.stages.every(s => s.rows[1].workers === 2 && s.rows[1].chunks_on_cpu === 0)'
-# All rows of a stage have one hash, and each stage has another.
+# All rows of a stage must have the same hash, and different stages different hashes.
 json 'j.stages.every(s => new Set(s.rows.filter(r => r.measured).map(r => r.hash)).size === 1)'
 json 'new Set(j.stages.map(s => s.rows[0].hash)).size === 3 && j.stages.every(s => /^[0-9a-f]{16}$/.test(s.rows[0].hash))'
-# Equations 2 to 4, from the times of the runs.
+# Checks the paper's equations 2 to 4 with the times of the runs.
 near='const near = (a, b) => Math.abs(a - b) <= 1e-12 * Math.abs(b); const median = a => [...a].sort((x, y) => x - y)[1];'
 measured='const rows = j.stages.flatMap(s => s.rows.filter(r => r.measured).map(r => ({s, r})));'
 json "$near $measured rows.every(({r}) => r.run_seconds.length === 3 && near(r.seconds, median(r.run_seconds)))"
 json "$near $measured rows.every(({s, r}) => near(r.speedup, s.rows[0].seconds / r.seconds))"
 json "$near $measured rows.every(({r}) => r.workers === null ? r.no_efficiency : near(r.efficiency, r.speedup / r.workers))"
 json "$near $measured rows.every(({s, r}) => near(r.operations_per_second, s.operations / r.seconds))"
-# A row that was not measured (its backend is missing, or cannot run the stage by itself) gives the reason.
+# A row must give the reason if it was not measured: its backend is missing, or cannot run the stage by itself.
 json 'j.stages.every(s => s.rows.every(r => r.measured ? r.reason === undefined : r.reason.length > 0 && !r.hash))'
-# The figures that the paper printed.
+# Checks the figures that are quoted from the printed paper.
 json 'j.paper.workers === 255 && j.paper.sequential_gflops === 0.8 && j.paper.parallel_gflops === 20.61'
 json 'j.stages[0].paper.speedup === 0.81 / 0.096 && j.stages[0].paper.printed_efficiency === 0.028'
 json 'j.paper.inconsistencies.length >= 5 && j.counted && j.measured'
 operations=$(node -p 'JSON.parse(require("fs").readFileSync(".out")).stages.map(s => s.operations + s.rows[0].hash).join()')
 
-# Another number of threads gives the same meshes and the same work; the table shows both rows.
+# With another number of threads, the meshes and the amount of work must be the same; the table shows both rows.
 expect 0 "$SGM" bench paper --size 32 --runs 1 --threads 1 --backend cpu --json
 json 'j.stages.every(s => s.rows.map(r => r.name).join() === "sequential,cpu" && s.rows[1].workers === 1)'
 json "j.stages.map(s => s.operations + s.rows[0].hash).join() === '$operations'"
@@ -52,11 +52,11 @@ out_has 'paper, parallel +255 +0\.0960 +8\.44 +0\.028  by its own times 0\.0331'
 out_has 'no one number fits'
 out_has 'Operations: instructions of the field programs'
 
-# --cell is the same edge in all stages, and a finer one means more work.
+# --cell sets the cell edge of all stages.
 expect 0 "$SGM" bench paper --cell 8 --runs 1 --backend cpu --json
 json 'j.stages.every(s => s.cell === 8)'
 
-# A backend that is requested by name but missing: the other rows are measured, and the exit status reports it.
+# If a backend is requested by name but missing, the other rows must be measured, and the exit status must be 3.
 expect 0 "$SGM" backends --json
 if node -e 'process.exit(JSON.parse(require("fs").readFileSync(".out")).backends[2].usable ? 0 : 1)'; then
   expect 0 "$SGM" bench paper --size 32 --runs 1 --backend cuda --json
@@ -68,7 +68,7 @@ else
   one_line
 fi
 
-# sgm bench chunks: each instruction set of the processor, on a grammar of the user's.
+# Tests sgm bench chunks: it measures each instruction set of the processor, with a grammar of the user.
 expect 0 "$SGM" bench chunks "$SOURCE"/samples/grammars/sphere.sgm --runs 2 --threads 2 --json
 json 'j.rows.length >= 2 && j.rows[0].instruction_set === "scalar" && j.rows.every(r => r.threads <= 2)'
 json 'new Set(j.rows.map(r => r.hash + r.triangles + r.chunks)).size === 1 && j.rows[0].triangles > 1000'
@@ -77,7 +77,7 @@ expect 0 "$SGM" bench chunks "$SOURCE"/tests/bench/grammars/cave.sgm --region 0,
 err_empty
 out_has 'scalar +1 +[0-9.]+ +[0-9.]+'
 
-# Invalid input and invalid usage.
+# Invalid input and invalid options must be refused.
 wrong() {
   expect "$@"
   out_empty

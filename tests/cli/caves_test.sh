@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Tests that every hall of a cave can be reached from every other through the void, and that no piece of rock above
-# eight cubic metres floats. Smaller pieces are ignored: in such large cells a small stalactite may separate from its
-# ceiling, and the block's border cuts off corners of rooms beyond it. Tests level 0, blocks of 4 cells with 16 halls,
-# or 64 where cells are stacked; in the long run with 1,000 seeds of cave.sgm and 100 of the others.
+# Tests that every hall of a cave is connected to every other through the void, and that no piece of rock above eight
+# cubic metres floats. Smaller pieces are ignored: in cells as large as these, a small stalactite may separate from its
+# ceiling, and the block's border cuts off corners of rooms. Tests blocks of 4 by 4 grammar cells with one hall each, or
+# of 4 by 4 by 4 if cells are also stacked. The long run tests 1,000 seeds of cave.sgm and 100 of the other samples.
 source "$(dirname "$0")/common.sh"
 
-# caves NAME SEEDS HALLS: checks the sample NAME for SEEDS seeds; with HALLS other than 0, each hall must have an
-# anchor.
+# caves NAME SEEDS ANCHORS [SOLID]: checks the sample NAME, in the long run for SEEDS seeds. It must have at least
+# ANCHORS anchors, and no floating rock above SOLID (default: 8) cubic metres.
 caves() {
   local seeds=1 said=
   [[ ${SGM_LONG-} != 1 ]] || { seeds=$2 && said=" with $2 seeds"; }
@@ -24,7 +24,7 @@ caves branchwork 100 0
 caves lake 100 16
 caves table4/cui 100 64
 
-# The test must detect a hall that is cut off, and balls that float two metres below the ceilings.
+# Negative test: the check must detect a hall that is cut off, and balls that float two metres below the ceilings.
 sed -e '/karst.Passage(/d' -e '/^expect /d' "$SOURCE/samples/grammars/cave.sgm" >cut_off.sgm
 echo 'expect components(air above 1m3) == 1 in block(4);' >>cut_off.sgm
 expect 1 "$SGM" check --expect cut_off.sgm --cell 0.5 --max-chunks 1000000

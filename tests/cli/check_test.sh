@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests sgm check and sgm fmt: messages with their places, JSON, layout.
+# Tests sgm check and sgm fmt: messages with their places, JSON, and formatting.
 source "$(dirname "$0")/common.sh"
 
 ball >ball.sgm
@@ -12,7 +12,8 @@ json 'j.files[0].parameters[0].name === "radius" && j.files[0].parameters[0].def
 json '/^[0-9a-f]{16}$/.test(j.files[0].hash) && j.files[0].materials[0] === "marble" && j.files[0].layers[0].name === "main"'
 expect 0 "$SGM" check "$SOURCE"/samples/grammars/*.sgm
 
-# Bytes that are not UTF-8: one error at the first of them, and the JSON is valid all the same.
+# If a file has bytes that are not UTF-8, there must be one error, at the first of them, and the JSON must be valid
+# nevertheless.
 printf 'sgm 1;\nparam a = 1m in 1m..2m "na\xefve"; // \xe9\nstart R;\nrule R { sphere(a); }\n' >latin1.sgm
 expect 1 "$SGM" check latin1.sgm
 err_has 'latin1.sgm:2:27: error: this byte is not UTF-8'
@@ -20,8 +21,8 @@ err_has 'note: 1 more byte of this file is not UTF-8'
 expect 1 "$SGM" check --json latin1.sgm
 json 'j.files[0].diagnostics.map(d => d.line + ":" + d.column).join() === "2:27"'
 
-# Errors whose cause is hard to see, such as UTF-16 or a division by zero in a constant: one error each, which names the
-# cause.
+# For errors whose cause is hard to see, such as UTF-16 or a division by zero in a constant, there must be one error
+# that names the cause.
 printf '\xff\xfes\0g\0m\0 \0001\0;\0' >utf16.sgm
 printf 'sgm 1;\nstart A;\nlet z = 0;\nrule A { sphere(1m/z); }' >divzero.sgm
 printf 'sgm 1;\nstart A;\nrule A weight -1 { sphere(1m); }\nrule A weight 2 { box(1m); }' >weight.sgm
@@ -32,7 +33,7 @@ for case in 'utf16.sgm:1:1: error: the text is UTF-16, not UTF-8' 'divzero.sgm:4
   out_has '1 error, 0 warnings'
 done
 
-# A library is valid without a start rule, also the standard library; a world needs a start rule.
+# A library, such as the standard library, is valid without a start rule; a world needs a start rule.
 printf 'sgm 1;\nrule Post(h) { cylinder(0.1*h, h); }\n' >library.sgm
 expect 0 "$SGM" check library.sgm "$SOURCE"/runtime/grammar/std/*.sgm
 out_has '^library.sgm: ok, a library without a start'
@@ -49,8 +50,8 @@ cp ball.sgm "$(printf 'b\xe4ll.sgm')"
 expect 0 "$SGM" check --json "$(printf 'b\xe4ll.sgm')"
 json 'j.files[0].file === "b\ufffdll.sgm"'
 
-# With several files the exit status is the highest of theirs; every file's messages are printed, also for one that
-# cannot be read.
+# With several files, the exit status must be the highest of their statuses, and the messages of every file must be
+# printed, even if one file cannot be read.
 for order in "none.sgm latin1.sgm ball.sgm" "ball.sgm latin1.sgm none.sgm"; do
   # shellcheck disable=SC2086
   expect 4 "$SGM" check --json $order
@@ -58,14 +59,14 @@ for order in "none.sgm latin1.sgm ball.sgm" "ball.sgm latin1.sgm none.sgm"; do
   # shellcheck disable=SC2086
   expect 4 "$SGM" fmt --check $order
 done
-# The message gives the reason why a file cannot be read.
+# The message must give the reason why a file cannot be read.
 ln -s round.sgm round.sgm
 expect 4 "$SGM" check round.sgm
 err_has 'round.sgm: Too many levels of symbolic links'
 rm round.sgm
 
-# bad NAME LINE COLUMN TEXT: checks that TEXT gives status 1 and "NAME.sgm:LINE:COLUMN: error: ...", then the source
-# line and a caret below the column.
+# bad NAME LINE COLUMN TEXT: checks the grammar TEXT; expects status 1 and the message "NAME.sgm:LINE:COLUMN: error:
+# ...", followed by the source line and a caret below the column.
 bad() {
   printf '%s\n' "$4" >"$1.sgm"
   expect 1 "$SGM" check "$1.sgm"
@@ -91,17 +92,17 @@ bad recursion 3 25 $'sgm 1;\nstart R;\nrule R { at(1m, 0m, 0m) R; }'
 bad reach 4 26 $'sgm 1;\ndomain infinite;\nlayer main cell 16m reach 2m { start R; }\nrule R { at(20m, 0m, 0m) sphere(1m); }'
 bad missing_import 2 8 $'sgm 1;\nimport "none.sgm" as none;\nstart R;\nrule R { sphere(3m); }'
 
-# The message suggests the most similar name.
+# For an unknown name, the message must suggest the most similar name.
 printf 'sgm 1;\nstart Chambr;\nrule Chamber { sphere(3m); }\n' >typo.sgm
 expect 1 "$SGM" check typo.sgm
 err_has 'did you mean .?Chamber'
 
-# Several errors in one run.
+# One run must report several errors.
 printf 'sgm 1;\nstart R;\nrule R { sphere(3deg); box(no_such); }\n' >two.sgm
 expect 1 "$SGM" check two.sgm
 [[ $(grep -c ': error: ' <<<"$err") == 2 ]] || failed "two errors expected"
 
-# Bytes that are not text, an empty file, a folder, and a missing file.
+# Files that cannot be grammars: random bytes, an empty file, a folder, and a missing file.
 head -c 4096 /dev/urandom >noise.sgm
 expect 1 "$SGM" check noise.sgm
 : >empty.sgm
@@ -117,7 +118,7 @@ expect 2 "$SGM"
 expect 2 "$SGM" frobnicate
 expect 2 "$SGM" check --no-such-option ball.sgm
 
-# Imports may not leave the folder of the grammar.
+# Imports must not leave the folder of the grammar.
 mkdir inner
 printf 'sgm 1;\nlet width() = 2m;\n' >outside.sgm
 printf 'sgm 1;\nimport "../outside.sgm" as o;\nstart R;\nrule R { sphere(o.width()); }\n' >inner/up.sgm
@@ -126,7 +127,7 @@ printf 'sgm 1;\nimport "link.sgm" as o;\nstart R;\nrule R { sphere(o.width()); }
 expect 1 "$SGM" check inner/up.sgm
 expect 1 "$SGM" check inner/through.sgm
 
-# sgm fmt is idempotent, writes a file only if it changes, and checks the grammar.
+# sgm fmt must be idempotent, write a file only if it changes, and check the grammar.
 for grammar in "$SOURCE"/samples/grammars/*.sgm; do
   cp "$grammar" sample.sgm
   expect 0 "$SGM" fmt --write sample.sgm

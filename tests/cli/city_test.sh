@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Tests that a flight through an endless city and back ends at the very buildings where it began, bit for bit, within
-# its memory limits: 300 m away at 60 m/s, in the long run 2 km.
+# Tests a flight through an endless city and back: it must end at the very buildings where it began, bit for bit, and
+# stay within its memory limits. It goes 300 m away at 60 m/s, in the long run 2 km.
 source "$(dirname "$0")/common.sh"
 
-# More frames than the path takes: on a busy machine, the last chunks are loaded while the viewer stands still.
+# The flight has more frames than the path takes: on a busy machine, the last chunks are loaded while the viewer stands
+# still.
 away=300 frames=1000
 [[ ${SGM_LONG-} != 1 ]] || away=2000 frames=6000
 city=$SOURCE/samples/grammars/city.sgm

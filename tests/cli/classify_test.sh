@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Tests sgm classify and sgm masters: classes of grammars and of mesh files, unknown objects, and the file of masters.
+# Tests sgm classify and sgm masters: classes of grammars and mesh files, unknown objects, and the database file of
+# reference histograms ("masters").
 source "$(dirname "$0")/common.sh"
 export XDG_DATA_HOME=$work/.data
-# The grammars of tests/bench/grammars, which never change; classes of today's samples are tested below.
+# Use the grammars of tests/bench/grammars, which never change; the current samples are tested below.
 grammars=$SOURCE/tests/bench/grammars
 only_here() { [[ ! -e $XDG_DATA_HOME ]] || failed "something was written to the base's place"; }
 
@@ -11,8 +12,8 @@ for command in classify masters 'masters build' 'masters list'; do
   out_has 'Example:'
 done
 
-# Classifies grammars; nothing is written where no file of masters exists.
-classes() {  # classes CLASS GRAMMAR OPTIONS...
+# Classifies grammars. If no database of masters exists, none must be written.
+classes() {  # classes CLASS GRAMMAR OPTIONS...: fails unless the grammar is classified as CLASS
   expect 0 "$SGM" classify "$grammars/$2" --json "${@:3}"
   err_empty
   json "j.class === '$1' && j.reason === null && j.margin > 0 && j.margin <= 1 && j.second_opinion.length > 0"
@@ -24,7 +25,7 @@ json 'j.masters === "built in" && j.key.mode === "curvature" && j.key.density ==
 json 'j.shares.length === j.key.bins && Math.abs(j.shares.reduce((a, b) => a + b) - 1) < 1e-12 && j.edges > 1000'
 classes cave cave.sgm --region 64,64,64:160,160,160 --cell 1 --seed 77
 classes cloud table4/bouthors.sgm --cell 8 --seed 77
-# Samples with a seed that no master was made from; for a tree, hints are printed on standard error.
+# Tests samples with seeds from which no reference histogram was made; for a tree, hints are printed on standard error.
 for sample in cave/cave cave/branchwork cave/lake cave/table4/cui terrain/desert building/city tree/tree; do
   expect 0 "$SGM" classify "$SOURCE/samples/grammars/${sample#*/}.sgm" --cell 0.5 --seed 77 --json
   json "j.class === '${sample%%/*}'"
@@ -35,7 +36,8 @@ out_has 'cloud +0\.[0-9]+ +0\.[0-9]+  cloud [0-9]+, most like '
 out_has 'reference histograms: built in, for mode curvature, 65 bins, curvature length 1 m, any density'
 only_here
 
-# A mesh file in any format has the class of its grammar; values differ only by the rounding of positions to float32.
+# A mesh file in any format must have the class of its grammar; values may differ only by the rounding of positions to
+# float32.
 expect 0 "$SGM" mesh "$grammars/storeys.sgm" --cell 0.5 --out storeys.glb
 for format in obj ply stl; do expect 0 "$SGM" mesh "$grammars/storeys.sgm" --cell 0.5 --out storeys.$format; done
 expect 0 "$SGM" classify "$grammars/storeys.sgm" --cell 0.5 --json
@@ -45,7 +47,7 @@ for format in glb obj ply stl; do
   json "j.class === 'building' && Math.abs(j.classes[0].mse - $error) < 1e-6"
 done
 
-# In both of the paper's modes, a grammar's density is known without an option; a mesh file needs --ld.
+# In both of the paper's modes, the density of a grammar is known without an option, but a mesh file needs --ld.
 for mode in printed corrected; do
   classes building storeys.sgm --cell 0.5 --mode $mode
   json 'j.key.density === 2 && j.key.curvature_length === null'
@@ -59,7 +61,7 @@ for mode in printed corrected; do
   err_has 'no reference histograms for mode .* at 3 cells per metre; there are some for: '
 done
 
-# Noise, and objects without an edge to measure.
+# Noise must be unknown, and objects without an edge to measure must be reported.
 cat >noise.sgm <<'END'
 sgm 1;
 units m;
@@ -75,7 +77,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
 expect 0 "$SGM" classify one.obj --json
 json 'j.class === "unknown" && /no edge/.test(j.reason) && j.edges === 0'
 
-# Objects that cannot be classified.
+# Files that cannot be classified must be refused.
 expect 4 "$SGM" classify none.glb
 one_line
 echo 'Dear Sir or Madam' >letter.txt
@@ -88,7 +90,7 @@ one_line
 expect 2 "$SGM" classify storeys.glb --mode other
 only_here
 
-# A file of masters built by this test.
+# Builds a database of masters and uses it.
 expect 0 "$SGM" masters list --json
 json 'j.masters === "built in" && j.keys.length === 5 && j.keys.every(k => new Set(k.masters.map(m => m.class)).size === 6)'
 json 'j.keys.every(k => k.limits.mse > 0 && k.limits.emd > 0)'
@@ -106,7 +108,7 @@ json 'j.class === "building" && j.masters === "base.db"'
 [[ $(stat -c %s base.inc) -gt 10000 ]] || failed 'base.inc is short'
 [[ -z $(ls base.db-* 2>/dev/null) ]] || failed 'logs of the base are left'
 
-# A damaged file named by the user is not moved; a file that holds no masters is not overwritten.
+# A damaged database that the user names must not be moved; a file that is no database must not be overwritten.
 head -c 5000 base.db >cut.db
 for command in "classify storeys.glb --masters cut.db" "masters list cut.db" "masters build --out cut.db"; do
   expect 1 "$SGM" $command
@@ -116,7 +118,7 @@ done
 expect 4 "$SGM" masters list none.db
 expect 4 "$SGM" classify storeys.glb --masters none.db
 
-# A damaged file at the default place is moved aside, and this is reported once.
+# A damaged database at the default path must be moved aside, and this must be reported once.
 mkdir -p "$XDG_DATA_HOME/sgm"
 base=$XDG_DATA_HOME/sgm/masters.db
 cp cut.db "$base"

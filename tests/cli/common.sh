@@ -1,4 +1,5 @@
-# Sourced by the tests of the command; each test's first two arguments are SGM (the command) and SOURCE (the project).
+# Sourced by all tests of the command. A test's first two arguments are SGM (the command) and SOURCE (the project
+# folder).
 set -uo pipefail
 SGM=$1
 SOURCE=$2
@@ -6,13 +7,13 @@ work=$(mktemp -d)
 cleanup() { rm -rf "$work"; }
 trap cleanup EXIT
 cd "$work"
-# The user's own cache folder stays untouched; only Mesa's shader cache is kept there, since compiling shaders takes
-# long.
+# Leaves the user's cache folder untouched, except for Mesa's shader cache, which is shared because compiling shaders
+# takes long.
 export MESA_SHADER_CACHE_DIR=${MESA_SHADER_CACHE_DIR:-${XDG_CACHE_HOME:-${HOME:-}/.cache}} XDG_CACHE_HOME=$work/.cache
 failures=0
 status=0 out= err= last=
 
-# run COMMAND...: runs it; sets `status`, `out` (standard output) and `err` (standard error).
+# run COMMAND...: runs the command; sets `status`, `out` (standard output) and `err` (standard error).
 run() {
   "$@" >"$work/.out" 2>"$work/.err" </dev/null
   status=$?
@@ -35,14 +36,14 @@ out_has() { [[ $out =~ $1 ]] || failed "standard output lacks /$1/"; }
 err_has() { [[ $err =~ $1 ]] || failed "standard error lacks /$1/"; }
 out_empty() { [[ -z $out ]] || failed "standard output is not empty"; }
 err_empty() { [[ -z $err ]] || failed "standard error is not empty"; }
-# Fails unless standard error is exactly one line.
+# one_line: fails unless standard error is exactly one line.
 one_line() { [[ $(grep -c . <<<"$err") == 1 ]] || failed "standard error is not one line"; }
-# json EXPRESSION: fails unless this JavaScript expression is true for the object j parsed from standard output.
+# json EXPRESSION: fails unless this JavaScript expression is true, where j is the object parsed from standard output.
 json() {
   node -e 'const j = JSON.parse(require("fs").readFileSync(process.argv[1], "utf8")); process.exit(eval(process.argv[2]) ? 0 : 1)' \
     "$work/.out" "$1" || failed "the JSON does not satisfy $1"
 }
-# only FILE...: fails if the working folder has other files than these (and those that the functions above write).
+# only FILE...: fails unless the working folder contains exactly these files, not counting .out, .err and .cache.
 only() {
   local wanted have
   wanted=$(printf '%s\n' "$@" | sort)

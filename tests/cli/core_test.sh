@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests the small build of the command (SGM_TOOLS=core): its commands work, and others are refused with their name.
+# Tests the small build of the command (SGM_TOOLS=core): its commands must work; others must be refused by name.
 #
 #   core_test.sh SGM SOURCE WHOLE_SGM
 whole=$3
@@ -9,7 +9,7 @@ expect 0 "$SGM" --help
 for command in check fmt explain mesh measure render fly backends; do
   lists "$command" || failed "help does not list $command"
 done
-# Every command that only a whole build has is refused, with any arguments.
+# A core build must refuse every command that only the whole build has, with any arguments.
 core=$out
 left_out=0
 expect 0 "$whole" --help

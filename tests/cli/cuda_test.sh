@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests the command on a simulated GPU, whose libcuda.so.1 is the first in LD_LIBRARY_PATH.
+# Tests the command on a simulated CUDA GPU: LD_LIBRARY_PATH leads to its libcuda.so.1 first.
 source "$(dirname "$0")/common.sh"
 
 expect 0 "$SGM" backends

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests sgm check --expect: statements that hold or fail, places of failures, seeds, uses of a rule, JSON.
+# Tests sgm check --expect: statements that hold or fail, places of failures, seeds, statements per use of a rule, JSON.
 source "$(dirname "$0")/common.sh"
 
 cat >row.sgm <<'END'
@@ -22,7 +22,8 @@ out_has 'row.sgm:8:21: expect: genus == 0: holds \(0; '
 out_has 'row.sgm:9:1: report: volume per Ball = 3 uses, minimum [0-9.]+, mean [0-9.]+, maximum [0-9.]+ m3 \('
 out_has 'row.sgm: ok, its 4 expectations hold$'
 
-# A statement that fails: its place, its line, a caret below it, and the measured value; the others are still evaluated.
+# For a statement that fails, the message must have its place, its line, a caret below it, and the measured value. The
+# other statements must still be evaluated.
 expect 1 "$SGM" check --expect row.sgm --set count=4
 [[ $err == "row.sgm:7:1: error: expected components == 3, but it is 4
   expect components == 3;
@@ -30,11 +31,11 @@ expect 1 "$SGM" check --expect row.sgm --set count=4
   note: "*" m, cells of 0.5 m, seed 0" ]] || failed "the message of a failed expectation"
 out_has 'row.sgm:8:1: expect: watertight: holds'
 out_has 'row.sgm: 1 statement fails$'
-# Without --expect, the grammar is not derived.
+# Without --expect, the grammar must not be derived.
 expect 0 "$SGM" check row.sgm
 [[ $out == 'row.sgm: ok' ]] || failed "check alone evaluates"
 
-# JSON: a list of statements, with what each measured.
+# The JSON must list the statements with their measured values.
 expect 0 "$SGM" check --expect --json row.sgm
 json 'j.ok && j.files[0].expectations.length === 6'
 json 'j.files[0].expectations.map(e => e.text)[1] === "expect components == 3;" && j.files[0].expectations[1].holds === true'
@@ -48,7 +49,7 @@ expect 1 "$SGM" check --expect --json row.sgm --set count=1
 err_empty
 json '!j.ok && !j.files[0].ok && j.files[0].expectations[1].value === 1 && j.files[0].expectations[1].holds === false'
 
-# A statement "per Rule" must hold for each use of the rule; the first use for which it fails is named.
+# A statement "per Rule" must hold for each use of the rule; the message must name the first use for which it fails.
 sed 's/^expect components == 1 per Ball;/expect volume < 60m3 per Ball;/' row.sgm >large.sgm
 expect 1 "$SGM" check --expect large.sgm --seed 1 --seeds 4
 err_has 'large.sgm:10:1: error: expected volume < 60m3 per Ball, but it is [0-9.]+ m3 in Row/Ball\[[0-2]\] at (0|8|16),0,0 m'
@@ -58,7 +59,7 @@ expect 0 "$SGM" check --expect row.sgm --seeds 3
 out_has 'seed 2\)'
 out_has 'row.sgm: ok, its 4 expectations hold with 3 seeds$'
 
-# A statement about a quantity that cannot be measured fails with a reason; a report statement about it does not fail.
+# A statement about a quantity that cannot be measured must fail with a reason; a `report` about it must not fail.
 cat >bar.sgm <<'END'
 sgm 1;
 domain infinite;
@@ -71,7 +72,7 @@ expect 1 "$SGM" check --expect bar.sgm
 out_has "bar.sgm:5:1: report: genus = not measured: the region's border cuts the surface"
 err_has "bar.sgm:6:1: error: expected genus == 0 in block\(1\), but it is not measured: the region's border cuts"
 
-# Reports where unwanted components lie: the smallest first, each by the bounding box of its samples.
+# The message must give the places of unwanted components: the smallest first, each by the bounding box of its samples.
 cat >stray.sgm <<'END'
 sgm 1;
 domain finite box(64m);
@@ -85,12 +86,13 @@ err_has 'note: the smallest are 1 m3 in -20.5,3.5,-0.5 to -19.5,4.5,0.5 m; [0-9.
 expect 1 "$SGM" check --expect stray.sgm --cell 1 --json
 out_has '"pieces":'
 
-# Components smaller than one sample cannot be distinguished.
+# A statement about components smaller than one sample must be refused, since samples cannot show these.
 sed 's/^report genus;/report components(solid above 0.01m3);/; s/^expect .*/expect components(solid above 2m3) >= 1;/' bar.sgm >small.sgm
 expect 0 "$SGM" check --expect small.sgm --cell 1 --region=-16,0,0:16,16,16
 out_has 'not measured: one sample stands for 1 m3, more than the volume in question: measure with smaller cells'
 
-# The measured volume is that of the solid, also where the region cuts it; the paper's count of cubes has another name.
+# `volume` must be the volume of the solid, also where the region cuts it. The paper's volume, which counts cubes, must
+# be reported separately, as `cubes`.
 cat >slab.sgm <<'END'
 sgm 1;
 start Slab;
@@ -104,7 +106,7 @@ json 'j.files[0].expectations[1].holds && j.files[0].expectations[1].values[0].c
 expect 0 "$SGM" check --expect slab.sgm --cell 0.1 --region=0,-3.2,-6.4:6.4,3.2,6.4 --json
 json 'Math.abs(j.files[0].expectations[0].value - 50) < 0.5'
 
-# The region and cell of the command line are used; if there are too many chunks, the message gives a remedy.
+# Region and cell size of the command line must be used. If there are too many chunks, the message must give a remedy.
 expect 0 "$SGM" check --expect row.sgm --region=-4,-4,-4:20,4,4 --cell 0.25
 out_has 'cells of 0.25 m'
 expect 1 "$SGM" check --expect row.sgm --cell 0.02 --max-chunks 100
@@ -113,7 +115,7 @@ expect 1 "$SGM" check --expect row.sgm --set count=99
 one_line
 expect 1 "$SGM" check --expect row.sgm --cell 0
 
-# Usage: options that control the evaluation need --expect.
+# Options that control the evaluation must be refused without --expect.
 for option in --seed=1 --seeds=2 --set=count=2 --region=0,0,0:1,1,1 --cell=1 --max-chunks=9; do
   expect 2 "$SGM" check row.sgm "$option"
 done
@@ -121,7 +123,7 @@ expect 2 "$SGM" check --expect row.sgm --seeds 0
 expect 2 "$SGM" check --expect
 expect 3 "$SGM" check --expect row.sgm --backend cuda
 
-# With several files, an error in one does not prevent the evaluation of the others.
+# With several files, an error in one must not prevent the evaluation of the others.
 printf 'sgm 1;\nstart R;\nrule R { sphere 3m; }\n' >syntax.sgm
 expect 1 "$SGM" check --expect syntax.sgm row.sgm
 out_has 'row.sgm: ok, its 4 expectations hold'

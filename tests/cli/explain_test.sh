@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests sgm explain: reports which rules made a place, in words and as JSON; its output can be used in overrides.
+# Tests sgm explain: it reports which rules made a place, as text and as JSON, and its paths can be used in overrides.
 source "$(dirname "$0")/common.sh"
 
 lipp=$SOURCE/tests/bench/grammars/table4/lipp.sgm
@@ -10,7 +10,7 @@ out_has 'nearest surface 0.40 m away at -9.00,-3.00,7.40 m \(plaster\): Palace/B
 out_has '>   box +outside +0.40 m  .*lipp.sgm:[0-9]+:[0-9]+'
 err_empty
 
-# An override with the path that explain reports removes the pier.
+# An override with the path that explain reports must remove the pier.
 expect 0 "$SGM" explain "$lipp" --at=3,-7,7.2 --json
 json 'j.solid && j.material === "plaster" && j.nodes.filter(n => n.decides).length === 1'
 json 'j.nodes.find(n => n.decides).path === j.path && j.nodes.every(n => n.line > 0 && n.file.endsWith("lipp.sgm"))'
@@ -20,7 +20,7 @@ path=$(node -e 'console.log(JSON.parse(require("fs").readFileSync(process.argv[1
 expect 0 "$SGM" explain edited.sgm --at=3,-7,7.2 --json
 json '!j.solid'
 
-# In a cave: the void was cut by a hall, and the rock is of the domain.
+# In a cave, explain must report that a hall has cut out the void, and that rock comes from the statement `domain`.
 cave=$SOURCE/tests/bench/grammars/cave.sgm
 expect 0 "$SGM" explain "$cave" --at=95.98,82.95,100.18
 out_has 'morph at t = 0.300'
@@ -31,7 +31,7 @@ json 'j.nodes.find(n => n.kind === "morph").t === 0.30000001192092896'
 expect 0 "$SGM" explain "$cave" --at=0,0,0 --json
 json 'j.solid && j.material === "limestone"'
 
-# Far away from any shape there is nothing to explain.
+# Far from all shapes, there is nothing to explain.
 ball >ball.sgm
 expect 0 "$SGM" explain ball.sgm --at=500,0,0
 out_has "open: no shape is near, the domain decides"

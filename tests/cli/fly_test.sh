@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Tests sgm fly: flights that dig and whose surface is closed in every frame, the same world for every flight, and
-# refusals.
+# Tests sgm fly: during flights with edits the surface is closed in every frame, every flight sees the same world, and
+# invalid calls are refused.
 source "$(dirname "$0")/common.sh"
 cave=$SOURCE/tests/bench/grammars/cave.sgm
 
-# Rows of SPEED SEED PACE: every frame is checked, with teleports. Three flights are 3,000 frames; --long flies further.
-# In paced flights more drawn chunks change; in unpaced ones, more frames come before their jobs end.
+# Three flights with teleports, given as "SPEED SEED [--unpaced]". Every frame is checked: 3,000 in all, far more in
+# the long run. Paced flights change more drawn chunks; in unpaced flights, more frames pass before jobs end.
 frames=1000
 [[ -n ${SGM_LONG:-} ]] && frames=33400
 for flight in "5 1 --unpaced" "20 2" "60 3 --unpaced"; do
@@ -31,7 +31,8 @@ for flight in "5 1 --unpaced" "20 2" "60 3 --unpaced"; do
   [[ -n $pace ]] || json '!j.stale_after_2_frames || j.stale_after_2_frames.median <= j.stale_after_2_frames.worst'
 done
 
-# The same place reached by another path, at another speed, with another number of threads, gives the same world.
+# At the same place, reached by another path, at another speed, with another number of threads, the world must be the
+# same.
 printf '{"points": [[96, 96, 96], [110, 96, 96], [120, 96, 100]]}' >path.json
 printf '{"points": [[60, 96, 140], [120, 96, 100]]}' >other.json
 small=(--cell 0.5 --seed 3 --finest 12 --top-level 3 --view 60 --unpaced --json)
@@ -44,12 +45,13 @@ expect 0 "$SGM" fly "$cave" "${small[@]}" --speed 20 --frames 200 --compare
 json 'j.finest_meshed_by_distance > j.finest_meshed && j.finest_saved > 0.2'
 expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --frames 30 --unpaced --top-level 3 --view 60
 out_has ' [0-9]+ frames of changes, '
-# A flight of one frame ends before anything is meshed, and reports that nothing was drawn.
+# A flight of one frame ends before any chunk is meshed, and must report that nothing was drawn.
 expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --path path.json --frames 1 --top-level 3 --view 60
 out_has "the flight ended before anything was drawn"
 err_empty
 
-# All chunks are measured, of a cave that is dug into and of sharp edges: no defect, and the drawn surface is closed.
+# Measures all chunks of a cave with edits, and of a world with sharp edges: there must be no defect, and the drawn
+# surface must be closed.
 sound='Object.values(j.measures.made.defects).length === 13'
 sound+=' && Object.values(j.measures.made.defects).every((n) => n === 0)'
 sound+=' && j.measures.made.bodies >= j.measures.drawn.bodies && j.measures.drawn.bodies > 0'
@@ -62,18 +64,19 @@ json "$sound"
 expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --frames 100 --unpaced --top-level 3 --view 60 --measure
 out_has 'no defects'
 
-# Sharp edges at every level, dug into.
+# Tests a world with sharp edges at every level, with edits.
 expect 0 "$SGM" fly "$SOURCE/tests/bench/grammars/building.sgm" --sharp --cell 0.5 --seed 3 --speed 20 --frames 1000 \
   --finest 12 --top-level 3 --view 60 --check --edits 5 --unpaced --json
 json 'j.commits > 5 && j.chunks_meshed > 100 && j.digs > 2'
 json 'j.open_edges === 0 && j.nonmanifold_edges === 0 && j.self_intersections === 0 && j.whole_failures === 0'
-# Noise as fine as the cells has places where no sharp edge is valid: their number is reported.
+# Where noise is as fine as the cells, no sharp edge is valid at some places; their number must be reported.
 expect 0 "$SGM" fly "$cave" --sharp --cell 0.5 --seed 3 --frames 60 --unpaced
 out_has 'edges +[0-9]+ cells keep rounded edges'
 expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --frames 60 --unpaced --json
 json 'j.rounded_cells === 0 && j.chunks_meshed > 100'
 
-# Parameters that change during the flight: in every frame the surface is closed, and all chunks show the same field.
+# Parameters change during the flight: in every frame the surface must be closed, and all chunks must show the same
+# field.
 expect 0 "$SGM" fly "$cave" "${small[@]}" --speed 20 --frames 400 --check --edits 5 --animate boxy wet
 json 'j.fields >= 60 && j.fields_drawn > 0 && j.fields_drawn <= j.fields && j.chunks_outdated > 0 && j.chunks_outdated < j.chunks_meshed'
 json 'j.open_edges === 0 && j.nonmanifold_edges === 0 && j.overlaps === 0 && j.whole_failures === 0'
@@ -89,7 +92,7 @@ expect 1 "$SGM" fly tide.sgm "${small[@]}" --frames 10 --animate wet
 err_has 'no range'
 rm tide.sgm
 
-# Digs and meshed chunks of one flight are loaded by the next one, and another flight digs elsewhere.
+# The next flight must load the edits and meshed chunks of a flight; a flight with another journal digs elsewhere.
 kept=(--path path.json --speed 10 --frames 180 --edits 4 --journal dug)
 left=(bin dug path.json other.json one.json torn.json flat.json)
 if [[ ${SGM_TEST_DISK_CACHE:-1} == 1 ]]; then
@@ -110,7 +113,7 @@ json 'j.edits === 16 && j.digs === 8'
 expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --path path.json --frames 120 --top-level 3 --view 60 --edits
 out_has 'digs +1 '
 
-# encoder LINE: creates a program `ffmpeg` that runs this line of shell; $file is the file it is to write.
+# encoder LINE: creates a fake `ffmpeg` that runs this line of shell; $file is the output file.
 encoder() {
   mkdir -p bin
   printf '#!/usr/bin/env bash\nfor word; do file=${word#file:}; done\n%s\n' "$1" >bin/ffmpeg
@@ -122,8 +125,8 @@ err_has 'ffmpeg'
 one_line
 expect 0 "$SGM" backends --json
 if node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1])).vulkan_devices.length ? 0 : 1)' "$work/.out"; then
-  # The CPU and the device give the same world, and the driver's compiled shaders are cached. The grammar has few kinds of
-  # shapes, since software Vulkan takes seconds to compile each; all chunks are complete before the world is hashed.
+  # CPU and Vulkan device must give the same world, and the compiled shaders must be cached. The grammar has few kinds
+  # of shapes, since software Vulkan takes seconds to compile each; the world is hashed when all chunks are complete.
   {
     echo 'sgm 1; units m; domain infinite; layer l cell 16m reach 1m { start Balls; }'
     echo 'rule Balls { for x in 0..1 { for z in 0..1 { at(4m+8m*x, 8m, 4m+8m*z) sphere(2.6m); } } }'
@@ -141,7 +144,7 @@ if node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1]))
   expect 0 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 3
   [[ $(<flight.mp4) == "$((2 * 640 * 360 * 4))"*' -s 640x360 -r 30 '* ]] || failed "the video is not two pictures"
   rm flight.mp4
-  # Pictures: already the first one is not black; the light (sun or lamp) suits the place and stays the same.
+  # Tests pictures: even the first one must not be black; the light (sun or lamp) must suit the place and stay the same.
   cat >yards.sgm <<'END'
 sgm 1;
 units m;
@@ -171,7 +174,7 @@ END
   expect 4 timeout 120 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 99999999
   err_has 'status 7: no room for a film'
   one_line
-  # An encoder that reads all pictures and then fails, and one that writes no file.
+  # Tests an encoder that reads all pictures and then fails, and an encoder that writes no file.
   encoder 'cat >"$file"; exit 7'
   expect 4 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 1
   encoder 'cat >/dev/null'
@@ -185,7 +188,7 @@ else
   one_line
 fi
 
-# Errors are reported in one line, and leave no files behind.
+# Errors must be reported in one line, and leave no files.
 printf '{"points": [[0, 0, 0]]}' >one.json
 printf '{"points": ' >torn.json
 printf '{"points": [[0, 0, 0], [1, 2]]}' >flat.json
@@ -200,7 +203,7 @@ expect 2 "$SGM" fly "$cave" --path path.json --teleports 2
 err_has 'usage'
 expect 2 "$SGM" fly "$cave" --frames 0
 expect 2 "$SGM" fly "$cave" --out sheet.png
-# On a full disk, simulated by a limit on file sizes, the flight ends normally, and reports what was not saved.
+# On a full disk, simulated by a limit on file sizes, the flight must end normally and report what was not saved.
 full=(--path path.json --speed 10 --frames 120 --edits 60 --journal full)
 expect 4 bash -c 'set -o pipefail; trap "" XFSZ; (ulimit -f 1; exec "$@") | cat' - "$SGM" fly "$cave" "${small[@]}" "${full[@]}"
 json 'j.edits > 20'
@@ -214,7 +217,7 @@ err_has 'mesh_bytes'
 expect 2 "$SGM" fly "$cave" --edits 61
 expect 2 "$SGM" fly "$cave" --video flight.avi
 expect 2 "$SGM" fly "$cave" --compare --journal dug
-# An output file that cannot be written is reported before the flight.
+# An output file that cannot be written must be reported before the flight.
 unwritable=("--png 2 --out nowhere/flight.png" "--video nowhere/flight.mp4" "--journal nowhere/dug")
 [[ ${SGM_TEST_DISK_CACHE:-1} == 1 ]] && unwritable+=("--cache path.json")
 for wrong in "${unwritable[@]}"; do

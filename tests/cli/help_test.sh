@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests --help, with an example for every command, --version, and backends.
+# Tests --help (with an example for every command), --version, and sgm backends.
 source "$(dirname "$0")/common.sh"
 expect 0 "$SGM" --help
 for command in check fmt explain lsp mesh bake store measure classify masters render preview fly serve bench paper backends; do
@@ -19,7 +19,7 @@ done
 expect 0 "$SGM" --version
 out_has '^sgm [0-9]+\.[0-9]+\.[0-9]+$'
 
-# The examples in the help work as printed.
+# The examples in the help must work as printed.
 mkdir -p samples && cp -r "$SOURCE/samples/grammars" samples/
 for command in check fmt explain backends; do
   expect 0 "$SGM" $command --help
@@ -39,7 +39,7 @@ json '!j.backends[1].usable || j.vulkan_devices.some(d => d.usable)'
 json 'Array.isArray(j.vulkan_devices) && j.version && j.build.includes(j.version)'
 expect 2 "$SGM" backends extra
 
-# For an unknown command, the most similar one is suggested.
+# For an unknown command, the message must suggest the most similar command.
 expect 2 "$SGM" meshh ball.sgm
 err_has "^sgm: usage: there is no command 'meshh': did you mean 'mesh'\\?"
 expect 2 "$SGM" bench papr

@@ -14,7 +14,7 @@ try {
   process.exit(process.env.SGM_REQUIRE_ALL === '1' ? 1 : 77);
 }
 
-/// The words of the table `name` in keywords.cpp.
+/// Returns the words of the table `name` in keywords.cpp.
 function table(source, name) {
   return [...source.match(new RegExp(`${name} = \\{([^}]*)\\}`))[1].matchAll(/"(\w+)"/g)].map((m) => m[1]);
 }
@@ -49,7 +49,7 @@ function check(holds, what) {
     return token.scopes[token.scopes.length - 1];
   };
 
-  // Every token of a sample has a scope, and none has the scope `invalid`.
+  // Every token of a sample must have a scope other than `invalid`.
   let tokens = 0;
   for (const sample of samples(path.join(project, 'samples/grammars'))) {
     let stack = textmate.INITIAL;
@@ -67,7 +67,7 @@ function check(holds, what) {
   check(tokens > 5000, `only ${tokens} tokens in the samples`);
 
   const source = fs.readFileSync(path.join(project, 'runtime/grammar/syntax/keywords.cpp'), 'utf8');
-  // The words of statements are reserved, except for clause words.
+  // The keywords that begin statements are reserved words, except for clause words.
   const statements = fs.readFileSync(path.join(project, 'runtime/grammar/syntax/stmts.def'), 'utf8');
   const words = [...statements.matchAll(/^SGM_STMT\(\w+, "(\w+)"/gm)].map((m) => m[1]);
   check(words.length > 25, `only ${words.length} words of statements`);

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Tests sgm inspect, the process that checks an upload for the metrics service: its report equals that of measure and
-# classify, and for unreadable input it names the place of the error.
+# Tests sgm inspect, the process that validates an upload for the metrics service: its report must equal those of
+# measure and classify, and for unreadable input it must name the place of the error.
 source "$(dirname "$0")/common.sh"
 export XDG_DATA_HOME=$work/.data
 
-# judge FILE OPTIONS...: runs sgm inspect on FILE; writes the JSON to .out, for json(), and the preview to .preview.
+# judge FILE OPTIONS...: runs sgm inspect on FILE; writes the JSON to .out (for the function json) and the preview to
+# .preview.
 judge() {
   last="inspect ${*:2} <$1"
   "$SGM" inspect "${@:2}" <"$1" >.frame 2>.err
@@ -19,7 +20,7 @@ judge() {
     fs.writeFileSync(".preview", all.subarray(16 + json));' || failed "the answer is not framed"
   out=$(<.out)
 }
-# judged FILE OPTIONS...: expects a report whose description of the preview matches the preview's bytes.
+# judged FILE OPTIONS...: expects a report, and that its description of the preview matches the preview's bytes.
 judged() {
   judge "$@"
   json 'typeof j.valid === "boolean" && j.status === undefined && j.measures.histogram.mode === "corrected" && j.measures.histogram.bins === 33'
@@ -35,13 +36,13 @@ judged() {
     for (let i = 0; i < 3 * p.triangles; ++i) fine &&= b.readUInt32LE(16 + 12 * p.points + 4 * i) < p.points;
     process.exit(fine ? 0 : 1);' || failed "the preview is not what the report says"
 }
-# refused FILE EXPRESSION OPTIONS...: expects a problem for which the expression is true.
+# refused FILE EXPRESSION OPTIONS...: expects a problem, as JSON, for which the JavaScript expression is true.
 refused() {
   judge "$1" "${@:3}"
   json "j.type === 'about:blank' && j.title.length > 0 && j.detail.length > 0 && ($2)"
   [[ -s .preview ]] && failed "a problem has a preview"
 }
-# same FILE KIND OPTIONS...: compares the report, member by member, with the output of measure and classify.
+# same FILE KIND OPTIONS...: checks that each member of the report equals the output of measure and classify.
 same() {
   judged "$1" --kind "$2" --name "$1" "${@:3}"
   cp .out report.json
@@ -75,7 +76,7 @@ for format in glb obj ply stl; do
   cp report.json .out
   json 'j.valid && j.measures.watertight && j.preview.triangles === j.measures.triangles && j.preview.of_triangles > 1000'
 done
-# A mesh that the region cuts is valid except for the cut.
+# A mesh that the region cuts must be valid except for the cut.
 same ball.sgm sgm --cell 0.25
 cp report.json .out
 json 'j.valid && j.measures.cell === 0.25 && j.diagnostics.length === 0'
@@ -86,7 +87,7 @@ same "$SOURCE/tests/bench/grammars/cave.sgm" sgm --region 64,64,64:128,128,128
 judged ball.sgm --kind sgm --region 32,32,32:48,48,48
 json '!j.valid && j.measures.triangles === 0 && j.preview === null && j.empty_because.length > 0'
 
-# A readable mesh that is no closed solid: defects are reported with places.
+# For a readable mesh that is no closed solid, defects must be reported with places.
 awk '/^f / && !gone { gone = 1; next } { print }' ball.obj >hole.obj
 judged hole.obj --kind obj
 json '!j.valid && j.measures.open_edges === 3 && j.measures.places.length === 3 && j.measures.places.every(p => p.kind === "open_edge")'
@@ -97,7 +98,7 @@ for file in empty point; do
   json 'j.valid === false || j.status === 422'
 done
 
-# Hand-made binary glTF files.
+# Writes and checks hand-made binary glTF files.
 node "$SOURCE/tests/cli/make_glb.js"
 judged good.glb --kind glb
 json 'j.valid && j.measures.triangles === 4 && Math.abs(j.measures.volume - 1 / 6) < 1e-6'
@@ -112,7 +113,7 @@ refused elsewhere.glb 'j.status === 422 && j.pointer === "/buffers/0"' --kind gl
 refused sparse_range.glb 'j.status === 422 && j.pointer.startsWith("/accessors/0/sparse")' --kind glb
 refused count.glb 'j.status === 422 && j.pointer.startsWith("/accessors/1")' --kind glb
 
-# Broken files of the other formats.
+# Checks broken files of the other formats.
 sed '5s/.*/v 1 nonsense 2/' ball.obj >bad.obj
 refused bad.obj 'j.status === 422 && j.line === 5' --kind obj
 printf 'v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n' >nan.obj
@@ -130,10 +131,10 @@ for kind in glb obj ply stl; do
 done
 refused good.glb 'j.status === 422 && /for grammars/.test(j.detail)' --kind glb --cell 1
 
-# Invalid grammars, and files that a grammar may not read.
+# Checks invalid grammars, and grammars that import files that they may not read.
 printf 'sgm 1;\nunits m;\nstart Ball;\nrule Ball { sphere(3); }\n' >wrong.sgm
 refused wrong.sgm 'j.status === 422 && j.line === 4 && j.column > 0 && j.diagnostics[0].line === 4 && j.diagnostics[0].severity === "error" && j.diagnostics[0].message.length > 0' --kind sgm
-# A process that opened one of these named pipes would wait for ever.
+# These files are named pipes: a process that opened one would block for ever.
 mkfifo secret.sgm asset.glb
 for path in /etc/passwd ../x.sgm secret.sgm "$work/secret.sgm" asset.glb "$work/asset.glb" ../asset.glb nothing.sgm; do
   printf 'sgm 1;\nunits m;\nimport "%s" as A;\nstart Ball;\nrule Ball { sphere(3m); }\n' "$path" >import.sgm
@@ -149,7 +150,7 @@ done
 printf 'sgm 1;\nunits m;\ndomain infinite solid limestone;\nlayer maze cell 32m reach 4m { start Maze; }\nrule Maze { cut { sphere(3m); } }\n' >endless.sgm
 judged endless.sgm --kind sgm --cell 1
 
-# Memory limits: exceeding one is reported as an error of the service.
+# Exceeding a memory limit must be reported as an error of the service, not of the upload.
 judge ball.obj --kind obj --memory 64
 json 'j.valid || (j.status === 500 && j.code === "validator_limit")'
 head -c 60000000 /dev/zero >zeros
@@ -162,7 +163,7 @@ expect 0 "$SGM" mesh ball.sgm --cell 0.0205 --set radius=3.4m --out million.ply
 judged million.ply --kind ply --name million.ply
 json 'j.valid && j.measures.triangles > 900000 && j.preview.triangles <= 60000 && j.preview.triangles > 10000 && j.classification !== null'
 
-# The limits are hard limits, which the process cannot raise.
+# The limits must be hard limits, which the process cannot raise.
 mkfifo input
 "$SGM" inspect --kind stl --seconds 7 <input >/dev/null &
 inspecting=$!
@@ -176,13 +177,13 @@ grep -E '^Max (cpu time|file size|core file size|open files|address space)' /pro
 for limit in 'cpu time 7 8' 'file size 268435456 268435456' 'core file size 0 0' 'open files 32 32'; do
   grep -q "^Max $limit " limits || failed "a limit of $limit expected: $(<limits)"
 done
-# Under a sanitizer there is no memory limit, since sanitizers map more memory than any limit allows.
+# Under a sanitizer there is no memory limit, since sanitizers map more memory than any limit would allow.
 grep -Eq '^Max address space ([0-9]+|unlimited) \1 ' limits || failed "a hard limit of memory expected: $(<limits)"
 exec 9>&-
 wait $inspecting
 rm input
 
-# The masters are listed, and stored again unchanged, bit for bit.
+# Lists the masters (reference histograms) and stores them again, which must not change a bit.
 touch nothing
 judge nothing --list-masters
 json 'j.from === "built in" && !j.writable && j.masters.length > 100 && j.limits.length === 5'
@@ -203,8 +204,8 @@ node -e '
 same ball.glb glb
 judged ball.glb --kind glb --masters base.db
 json 'j.classification.masters === "base.db"'
-# put EXPRESSION POINTER: stores the masters as changed by the expression; expects an error at POINTER and an unchanged
-# file.
+# put EXPRESSION POINTER: changes the masters by the JavaScript expression and stores them; expects an error at the JSON
+# pointer POINTER, and an unchanged file.
 put() {
   node -e '
     const fs = require("fs"), j = JSON.parse(fs.readFileSync("listed.json"));
@@ -245,7 +246,7 @@ refused listed.json 'j.status === 500 && j.code === "masters_unusable"' --store-
 judged ball.glb --kind glb --masters damaged.db
 json 'j.valid && j.classification === null && j.classification_error.length > 0 && j.nearest_masters.length === 0'
 
-# The command is only for the service, so help does not list it; wrong usage is reported to the caller.
+# Only the service calls this command, so --help must not list it; wrong usage must be reported to the caller.
 expect 0 "$SGM" --help
 [[ $out != *inspect* ]] || failed "help lists it"
 expect 2 "$SGM" inspect

@@ -1,5 +1,5 @@
-// Plays an editor with the client library that VS Code itself uses: opens and edits grammars, and sends requests about
-// them.
+// Tests the language server as an editor would use it, with VS Code's own client library: opens and edits grammars, and
+// sends requests about them.
 //
 //   node lsp_client.js FOLDER_OF_NODE_MODULES COMMAND PROJECT
 const { spawn } = require('child_process');
@@ -52,7 +52,7 @@ async function change(uri, text) {
     textDocument: { uri, version: ++version }, contentChanges: [{ text }] });
   return diagnostics;
 }
-/// The position of the n-th `word` of the text, plus `into`, in UTF-16 units as in JavaScript strings.
+/// Returns the position of the n-th `word` of the text, plus `into`, in UTF-16 units as in JavaScript strings.
 function placeOf(text, word, n = 0, into = 0) {
   let at = -1;
   for (let i = 0; i <= n; ++i) at = text.indexOf(word, at + 1);
@@ -103,7 +103,8 @@ override "net(0, 0, 0)/Node/Room[0]" { sphere(0.5*r); }
     'characters are UTF-16 units', wrong);
   check((await change(uri, cave)).length === 0, 'and taken back');
 
-  // An imported file's open document has priority over the file on the disk; its errors are reported in that document.
+  // If an imported file is open in the editor, its document must be used rather than the file on the disk; its errors
+  // must be reported in that document.
   const arch = uriOf('parts/arch.sgm');
   fs.writeFileSync(path.join(folder, 'parts/bad.sgm'), 'sgm 1;\nrule Bad { sphere(2); }\n');
   const bad = nextDiagnostics(uriOf('parts/bad.sgm'));
@@ -150,7 +151,7 @@ override "net(0, 0, 0)/Node/Room[0]" { sphere(0.5*r); }
   check((await hover('cut {')).length > 20, 'a keyword');
   check((await ask('textDocument/hover', uri, placeOf(cave, 'Häuser'))) === null, 'not a comment');
 
-  // Completion in an unfinished text; `|` marks the cursor.
+  // Tests completion in an unfinished text; `|` marks the cursor.
   const labels = async (written) => {
     await change(uri, written);
     const p = placeOf(written, '|');
@@ -168,7 +169,7 @@ override "net(0, 0, 0)/Node/Room[0]" { sphere(0.5*r); }
   check(list.includes('point') && list.includes('links'), 'of a cell', list);
   check((await labels(cave.replace('Häuser', 'Hä|user'))).length === 0, 'nothing in a comment');
 
-  // Symbols and formatting.
+  // Tests symbols and formatting.
   await change(uri, cave);
   const symbols = await connection.sendRequest('textDocument/documentSymbol', { textDocument: { uri } });
   check(symbols.map((s) => s.name).join() === 'cave,parts,wet,net,hub,Node,Room', 'symbols', symbols.map((s) => s.name));
@@ -196,7 +197,7 @@ override "net(0, 0, 0)/Node/Room[0]" { sphere(0.5*r); }
     check(refused.code === code, `${method} is refused`, refused);
   }
 
-  // Every sample grammar opens without diagnostics.
+  // Every sample grammar must open without diagnostics.
   const samples = (dir) => fs.readdirSync(dir, { withFileTypes: true }).flatMap((entry) =>
     entry.isDirectory() ? samples(path.join(dir, entry.name)) : entry.name.endsWith('.sgm') ? [path.join(dir, entry.name)] : []);
   for (const file of samples(path.join(project, 'samples/grammars'))) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tests sgm lsp with a client of VS Code's library (lsp_client.js), the colours (highlighting.js), and bytes that are
-# not messages.
+# Tests sgm lsp with VS Code's own client library (lsp_client.js), syntax highlighting (highlighting.js), and input that
+# is no valid message.
 source "$(dirname "$0")/common.sh"
 here=$SOURCE/tests/cli tools=$3
 
@@ -9,7 +9,7 @@ expect 0 node "$here/lsp_client.js" "$tools" "$SGM" "$SOURCE"
 out_has 'all passed'
 expect 0 node "$here/highlighting.js" "$tools" "$SOURCE"
 
-# lsp MESSAGE...: sends each message, with its header, to the server.
+# message TEXT: prints a message with its header. lsp MESSAGE...: sends each message to the server.
 message() { printf 'Content-Length: %d\r\n\r\n%s' "${#1}" "$1"; }
 lsp() { for one in "$@"; do message "$one"; done | "$SGM" lsp; }
 hello='{"jsonrpc":"2.0","id":1,"method":"initialize","params":{}}'
@@ -34,7 +34,7 @@ run bash -c '"$1" lsp <talk' - "$SGM"
 run bash -c '"$1" lsp <talk' - "$SGM"
 [[ $status == 1 ]] || failed 'a message that is too large'
 out_has 'a message must have 1 to'
-# JSON nested deeper than the stack allows: once in the parameters, once as the whole message.
+# Sends JSON nested deeper than the stack allows: once in the parameters, once as the whole message.
 deep=$(head -c 1000000 /dev/zero | tr '\0' '[')
 shut=$(tr '[' ']' <<<"$deep")
 { message "$hello"
@@ -46,7 +46,7 @@ run bash -c '"$1" lsp <talk' - "$SGM"
 out_has '"id":2,"jsonrpc":"2.0","result":null'
 run lsp "$hello" '{"jsonrpc":"2.0","id":3,"method":"no/such","params":["\"[[","'"${deep:0:300}"'"]}' "$bye" "$leave"
 [[ $status == 0 ]] && out_has '"code":-32601' || failed 'brackets in texts are none'
-# A header without an end, and lengths that no stream can have.
+# Sends a header without an end, and lengths that no stream can have.
 run bash -c 'yes Content-Type: | tr -d "\n" | "$1" lsp' - "$SGM"
 [[ $status == 1 ]] || failed 'a header without an end'
 err_has 'not a message of the Language Server Protocol'

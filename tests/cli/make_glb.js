@@ -21,7 +21,7 @@ function glb(json, binary) {
   return Buffer.concat([head, body]);
 }
 
-// Writes one file. change: edits the JSON before it is written. of: edits the binary part.
+// Writes one file. change: edits the JSON before it is written. of: edits the binary chunk.
 function write(name, change = () => {}, of = () => {}) {
   const binary = Buffer.alloc(48 + 24 + 16);
   positions.flat().forEach((x, i) => binary.writeFloatLE(x, 4 * i));

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Tests the manual of the language, samples/grammars/README.md: its examples are valid, formatted, and satisfy their
-# expectations; each has a picture of exactly its text; every word, shape and function occurs in an example; its grammar
-# is the parser's.
+# Tests the manual of the language, samples/grammars/README.md. Its examples must be valid, formatted, and satisfy their
+# expectations; each must have a picture made from exactly its text. Every keyword, shape and function must occur in an
+# example. The printed grammar must be the parser's.
 source "$(dirname "$0")/common.sh"
 manual=$SOURCE/samples/grammars/README.md
 
@@ -19,14 +19,14 @@ done
 run bash "$SOURCE/samples/manual.sh" changed
 [[ $status == 0 ]] || failed 'pictures are of other texts: samples/manual.sh draw SGM draws them'
 
-# An example whose text has changed needs a new picture.
+# If the text of an example has changed, the check must ask for a new picture.
 mkdir -p copy/samples && cp -r "$SOURCE/samples/grammars" "$SOURCE/samples/manual.sh" "$SOURCE/samples/images" copy/samples/ 2>/dev/null
 sed -i 's/^  cylinder(1m, 2m);/  cylinder(1m, 3m);/' copy/samples/grammars/README.md
 run bash copy/samples/manual.sh changed
 [[ $status == 1 && $out == first ]] || failed 'a changed example is not seen'
 
 words() { sed -n "/ $1 = {/,/};/p" "$SOURCE/runtime/grammar/syntax/keywords.cpp" | grep -o '"[a-z]*"' | tr -d '"'; }
-# The words of statements are reserved, except for clause words.
+# The keywords that begin statements are reserved words, except for clause words.
 keywords() {
   words kOtherKeywords
   sed -n 's/^SGM_STMT([a-z_]*, "\([a-z]\+\)".*/\1/p' "$SOURCE/runtime/grammar/syntax/stmts.def" | grep -vxF "$(words kClauseWords)"
@@ -37,11 +37,11 @@ text=$(sed 's#//.*##' examples/*.sgm)
 for word in $(keywords) $(words kMeasures) $(words kBoxParts) $(names Primitive) $(names Builtin); do
   grep -qw "$word" <<<"$text" || failed "no example has the word $word"
 done
-# Units and suffixes that occur only in tables need not occur in an example.
+# Units and suffixes that occur only in tables of the manual need not occur in an example.
 for word in $(words kClauseWords); do
   grep -qE "(^|[^a-z])$word([^a-z]|$)" "$manual" || failed "the manual has not the word $word"
 done
-# The manual's lists are equal to those of the compiler and of the pictures.
+# The manual's lists must be equal to the lists in the compiler and to the list of pictures.
 same() { [[ $(sort -u <<<"$2") == "$(sort -u <<<"$3")" ]] || failed "the manual's list of $1 is another: $(diff <(sort -u <<<"$2") <(sort -u <<<"$3"))"; }
 section() { sed -n "/^## $1\$/,/^## /p" "$manual"; }
 same words "$(section Words | sed -n '/^```text$/,/^```$/p' | grep -v '`' | tr ' ' '\n')" "$(keywords; words kUnavailable)"
@@ -49,13 +49,13 @@ same shapes "$(section Shapes | sed -n 's/^| \(`.*`\) |.*/\1/p' | grep -o '`[a-z
 same functions "$(section Values | sed -n 's/^| \(`.*`\) |.*/\1/p' | grep -oE '`(c\.)?[a-z0-9]+\(' | sed 's/[`(]//g; s/^c\.//')" "$(names Builtin)"
 same materials "$(section Rules | tr '\n' ' ' | sed 's/.*know these looks://; s/; each with a tint.*//' | grep -o '`[a-z_]*`' | tr -d '`')" \
   "$(grep -o '^    {"[a-z_]*", {' "$SOURCE/runtime/tools/materials/material.cpp" | grep -o '[a-z_]*')"
-# The page of the library is what samples/library.sh generates from the library's sources.
+# The page of the standard library must be what samples/library.sh generates from the library's sources.
 bash "$SOURCE/samples/library.sh" | cmp -s - "$SOURCE/samples/grammars/library.md" ||
   failed 'samples/grammars/library.md is of another library: samples/library.sh write'
 [[ $(grep -c '^### ' "$SOURCE/samples/grammars/library.md") == $(cat "$SOURCE"/runtime/grammar/std/*.sgm | grep -c '^// Example: ') ]] ||
   failed 'the page of the library leaves some of it out'
-# Everything in the library with a shape has a picture, and every picture belongs to something in it; a function that
-# returns one number per cell needs none.
+# Every rule or function of the library must have a picture, and every picture must belong to one of them; functions
+# that return one number per cell need none.
 pictured=$(bash "$SOURCE/samples/library.sh" names | sort)
 there=$(cd "$SOURCE/samples/images/library" && printf '%s\n' *.jpg | sed 's/\.jpg$//' | sort)
 [[ $pictured == "$there" ]] || failed "pictures of the library: samples/library.sh pictures SGM draws them: $(diff <(echo "$pictured") <(echo "$there"))"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests sgm measure: of files in four formats and of a grammar; damaged files, and files that hold no mesh.
+# Tests sgm measure: with files in four formats and a grammar, with damaged files, and with files that contain no mesh.
 source "$(dirname "$0")/common.sh"
 
 ball >ball.sgm
@@ -11,7 +11,7 @@ json 'Math.abs(j.histogram.shares.reduce((a, b) => a + b) - 1) < 1e-12 && j.hist
 json 'j.seed === 0 && j.cell === 0.25 && j.hash.length === 16'
 grammar_area=$(node -e 'console.log(JSON.parse(require("fs").readFileSync(process.argv[1], "utf8")).area)' .out)
 
-# All formats give the same measures, up to the single precision of their positions.
+# All formats must give the same measures, up to the single precision of their positions.
 for format in glb obj ply stl; do
   expect 0 "$SGM" mesh ball.sgm --cell 0.25 --out ball.$format
   expect 0 "$SGM" measure ball.$format --json
@@ -29,7 +29,7 @@ json 'j.cubes.all_corners < j.volume && j.cubes.any_corner > j.volume'
 expect 0 "$SGM" measure ball.ply --json --mode curvature --unique-edges --curvature-length 3 --no-self-intersections --weld 0.001
 json 'j.histogram.edges === j.edges && j.self_intersections === null && j.folded === null && Math.abs(j.histogram.shares.reduce((a, v, i) => a + i * v, 0) - 24) < 1.5'
 
-# Compares the mesh with the field: normals point outwards along the gradient, vertices lie on the surface.
+# Compares the mesh with the field: normals must point outwards along the gradient, vertices must lie on the surface.
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --field --json
 json 'j.valid && j.field.vertices === j.points && j.field.normals.count === j.points && j.field.in_creases === 0'
 json 'j.field.normals.inward === 0 && j.field.normals.outward === 1 && j.field.normals.p99 < 0.1 && j.field.faces.median < 5'
@@ -42,20 +42,20 @@ out_has 'faces +0 of [0-9]+ triangles. corners inward'
 out_has 'residual +.f. 0.0'
 err_empty
 
-# Compares levels with each other: distances are below the bound, and grow with the level.
+# Compares levels of detail with each other: distances must be below the bound, and grow with the level.
 expect 0 "$SGM" measure ball.sgm --cell 0.125 --levels 3 --level 1 --json
 json 'j.level === 1 && j.levels.length === 3 && j.levels.every((l, i) => l.level === i + 1 && l.coarse_level === i + 2)'
 json 'j.levels.every((l) => l.coarse_cell === 0.125 * 2 ** l.coarse_level && l.at_least <= l.at_most && l.at_most < l.bound)'
 json 'j.levels.every((l) => !l.beyond_bound && Math.abs(l.bound / l.coarse_cell - 1.5 * Math.sqrt(3)) < 1e-9)'
 json 'j.levels[1].at_least > 2 * j.levels[0].at_least && j.levels[0].left_out[0] + j.levels[0].left_out[1] === 0'
-# Half of the ball: places near the cut are left out of the comparison.
+# The region contains half of the ball: places near the cut must be left out of the comparison.
 expect 0 "$SGM" measure ball.sgm --cell 0.125 --region -4,-4,-4:0,4,4 --levels 1 --json
 json 'j.cut && j.levels[0].left_out[0] > 0 && j.levels[0].at_least < 0.05'
 expect 0 "$SGM" measure ball.sgm --cell 0.125 --region -4,-4,-4:0,4,4 --levels 1
 out_has 'levels +0 and 1: 0.0'
 out_has 'left out, at the region.s cut'
 
-# The region's cut is not a defect; a hole elsewhere would be one.
+# The cut at the region's border must not count as a defect, but a hole elsewhere must.
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --region -4,-4,-4:0,4,4 --json --strict
 json 'j.cut && !j.valid && j.valid_but_for_cut && j.cut_edges > 30 && j.cut_edges === j.open_edges && j.problems.length === 0'
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --region -4,-4,-4:0,4,4
@@ -67,7 +67,7 @@ printf 'sgm 1; start A; rule A { at(8032m, 32m, 8032m) sphere(20m); }\n' > far.s
 expect 1 "$SGM" measure far.sgm --region 0,0,0:8,8,8 --strict
 out_has 'verdict +empty'
 
-# Reports where an open mesh is wrong.
+# The places of defects of an open mesh must be reported.
 printf 'v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 1 4 3\n' > open.obj
 expect 0 "$SGM" measure open.obj
 out_has '3 open edges .with one triangle.: there are holes, the first at 2,2,0'
@@ -83,8 +83,8 @@ out_has 'counts overlaps of parts several times'
 expect 0 "$SGM" measure tetra.obj --json
 json 'j.valid && j.volume_counts_once && j.places.length === 0'
 
-# Far from the world's origin, positions in files are relative to another origin; reported places are those of the
-# world.
+# Far from the world's origin, positions in files are relative to another origin; reported places must be world
+# positions.
 expect 0 "$SGM" mesh far.sgm --region 8000,0,8000:8064,64,8064 --cell 1 --out far.glb
 expect 0 "$SGM" measure far.sgm --region 8000,0,8000:8064,64,8064 --cell 1 --json --against far.glb --levels 1 --field
 json 'j.origin.join() === "8000,0,8000" && Math.abs(j.bounds[0][0] - 8012) < 0.5 && j.against.at_most < 1e-3'
@@ -97,7 +97,7 @@ for format in glb obj ply stl; do
   json 'j.origin.join() === "8000,0,8000" && Math.abs(j.bounds[0][0] - 8012) < 0.5 && Math.abs(j.bounds[1][1] - 52) < 0.5'
 done
 
-# A level without a surface does not stop the comparison of levels.
+# A level without a surface must not stop the comparison of levels.
 printf 'sgm 1; start A; rule A { at(0.7m, 0.7m, 0.7m) sphere(0.4m); }\n' > speck.sgm
 expect 0 "$SGM" measure speck.sgm --cell 0.25 --region -8,-8,-8:8,8,8 --levels 3 --json
 json 'j.valid && j.levels.length === 3 && !j.levels[0].vanished && j.levels.some((l) => l.vanished && l.at_least === undefined)'
@@ -105,7 +105,7 @@ expect 0 "$SGM" measure speck.sgm --cell 0.25 --region -8,-8,-8:8,8,8 --levels 3
 out_has 'one has a surface here and the other has none'
 out_has 'neither has a surface here'
 
-# Options for grammars are refused with files, and options for files with grammars.
+# Options for grammars must be refused with files, and options for files with grammars.
 for option in '--seed 3' '--sharp' '--region 0,0,0:1,1,1' '--set a=3' '--cell 4' '--backend cpu' '--level 2'; do
   # shellcheck disable=SC2086
   expect 2 "$SGM" measure tetra.obj $option
@@ -116,7 +116,7 @@ err_has '.--seconds is for mesh files'
 expect 2 "$SGM" measure ball.sgm --level 14 --levels 4
 err_has '.--level and --levels reach level 18, and 16 is the coarsest'
 
-# Distances to another mesh, in both directions: to a copy, and to a ball that is 0.1 m larger.
+# Measures distances to another mesh in both directions: to a copy, and to a ball that is 0.1 m larger.
 expect 0 "$SGM" measure ball.glb --against ball.ply --json
 json 'j.valid && j.against.file === "ball.ply" && j.against.at_most < 1e-6 && j.against.triangles === j.triangles'
 expect 0 "$SGM" mesh ball.sgm --cell 0.25 --set radius=3.1m --out larger.glb
@@ -127,8 +127,8 @@ expect 0 "$SGM" measure ball.sgm --cell 0.25 --against larger.glb
 out_has 'distance +0\.(09|10)[0-9]* to 0\.1[0-9]* between this and larger.glb'
 err_empty
 
-# Texel densities of files with and without texture coordinates, and of a grammar, whose three projection planes have
-# one density.
+# Measures texel densities of files with and without texture coordinates, and of a grammar, whose three projection
+# planes have one density.
 expect 0 "$SGM" mesh ball.sgm --cell 0.25 --uv --out textured.glb
 expect 0 "$SGM" measure textured.glb --texels 512 --json
 json 'j.texels.resolution === 512 && j.texels.triangles === j.triangles && j.texels.min >= 500 && j.texels.ratio < 1.3'
@@ -137,9 +137,8 @@ json 'j.texels.resolution === 1024 && j.texels.triangles > 0 && j.texels.min > 1
 expect 0 "$SGM" measure textured.glb --texels
 out_has 'texels +1[0-9.e+]* per unit of length at the median, .* for a texture of 1024'
 
-# Vertex cache: two triangles that share an edge load 4 vertices once each; a strip drawn in three rounds loads each
-# vertex three times. Overdraw: of two squares, one behind the other, the pixels are shaded twice if the nearer square
-# is drawn last.
+# Vertex cache: two triangles that share an edge must load 4 vertices once each; a strip drawn in three rounds must load
+# each vertex three times. Overdraw: if the nearer of two squares is drawn last, the pixels must be shaded twice.
 printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' > square.obj
 expect 0 "$SGM" measure square.obj --drawing --json
 json 'j.drawing.triangles === 2 && j.drawing.acmr === 2 && j.drawing.atvr === 1 && j.drawing.overdraw === 1'
@@ -170,7 +169,7 @@ json 'j.triangles > 100 && j.texels.triplanar_share === 1 && j.texels.triangles 
 expect 0 "$SGM" measure "$SOURCE/samples/grammars/table4/voxel.sgm" --region 0,0,0:16,16,16 --texels
 out_has 'texels +1024 everywhere on the 100.0 % of the area with triplanar texturing'
 
-# Options for things that the file lacks, and missing files.
+# Options that need data which the file does not have must be refused; so must missing files.
 expect 2 "$SGM" measure ball.glb --field
 err_has '--field is for grammars'
 one_line
@@ -192,7 +191,7 @@ for subject in ball.glb ball.sgm; do
   out_empty
 done
 
-# A damaged mesh is measured and its defects reported, without an error.
+# A damaged mesh must be measured and its defects reported, without an error.
 grep -v '^f' ball.obj >holes.obj
 grep '^f' ball.obj | tail -n +4 >>holes.obj
 expect 0 "$SGM" measure holes.obj
@@ -204,7 +203,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n
 expect 0 "$SGM" measure inverted.obj --json
 json '!j.valid && j.watertight && j.inside_out === 1 && j.volume < 0 && Math.abs(j.volume + 1 / 6) < 1e-12'
 
-# A file that holds no mesh: one line with the place, status 1.
+# For a file that contains no mesh, there must be one line with the place, and status 1.
 head -c 2000 ball.glb >cut.glb
 expect 1 "$SGM" measure cut.glb
 err_has 'cut.glb: .*at byte'
@@ -241,11 +240,11 @@ one_line
 expect 1 "$SGM" measure letter.txt
 err_has 'letter.txt: the mesh format is unsupported; use .glb'
 one_line
-# A name without a known extension is accepted: the contents decide the format.
+# A name without a known extension must be accepted: the content decides the format.
 cp ball.glb unnamed
 expect 0 "$SGM" measure unnamed
 err_has 'unnamed: by its bytes it is glTF, and is read as such'
-# Extensions are recognised in upper and lower case.
+# Extensions must be recognised in upper and lower case.
 cp ball.sgm CAPITALS.SGM
 cp ball.glb CAPITALS.GLB
 for subject in 'CAPITALS.SGM --cell 0.25' CAPITALS.GLB; do
@@ -256,7 +255,7 @@ done
 expect 2 "$SGM" measure ball.ply --bins 0
 expect 2 "$SGM" measure ball.ply --weld=-1
 
-# Memory limits hold whatever sizes a file claims.
+# Memory limits must hold whatever sizes a file claims.
 if [[ $("$SGM" --version; nm -D "$SGM" 2>/dev/null) != *__asan* ]]; then
   node -e '
     const n = 700000, bytes = Buffer.alloc(84 + 50 * n);
@@ -270,7 +269,7 @@ if [[ $("$SGM" --version; nm -D "$SGM" 2>/dev/null) != *__asan* ]]; then
   err_has 'it takes more than 0.1 s'
   one_line
 fi
-# Measures of the void: two rooms in rock, a corridor 1 m wide between them, and a third room that is sealed.
+# Measures the void: two rooms in rock, a corridor between them that is 1 m wide, and a third room that is sealed.
 cat >rooms.sgm <<'END'
 sgm 1;
 domain finite box(40m, 16m, 16m) solid;
@@ -313,7 +312,7 @@ out_has 'voids +2'
 expect 1 "$SGM" measure rooms.sgm --cell 0.25 --from -14,0,0 --to 19,7,7
 err_has 'error: --to lies in rock'
 [[ $out != *widest* ]] || failed "rock at an end is told as a width"
-# An agent of the reported greatest width passes, one that is wider by the last bit does not.
+# An agent of the reported greatest width must pass, and an agent that is wider by the last bit must not.
 expect 0 "$SGM" measure rooms.sgm --cell 0.25 "${from_to[@]}" --json
 widest=$(node -p 'JSON.parse(require("fs").readFileSync(".out")).way.widest')
 expect 1 "$SGM" measure rooms.sgm --cell 0.25 "${from_to[@]}" --radius "$widest" --json
@@ -343,7 +342,7 @@ expect 2 "$SGM" measure "$SOURCE/tests/bench/grammars/cave.sgm" --radius 0
 err_has 'endless: choose a part with --region'
 one_line
 
-# Long work shows its progress if standard error is a terminal.
+# Long work must show its progress if standard error is a terminal.
 expect 0 "$SGM" mesh ball.sgm --cell 0.05 --out looked_at.glb
 if command -v script >/dev/null; then
   run script -qec "$SGM measure looked_at.glb" /dev/null
@@ -351,7 +350,7 @@ if command -v script >/dev/null; then
 fi
 rm looked_at.glb
 
-# If the calling process ends, the reading process ends, too.
+# If the calling process ends, the child process that reads the file must end, too.
 if [[ -e large.stl ]]; then
   "$SGM" measure large.stl >/dev/null 2>&1 &
   sleep 0.3
@@ -359,7 +358,7 @@ if [[ -e large.stl ]]; then
   kill -TERM $! 2>/dev/null
   wait $! 2>/dev/null
   sleep 0.3
-  # A process that has ended may still be listed as a zombie.
+  # If the process is still listed, it must be a zombie, which has already ended.
   [[ -z $reader || $(ps -o stat= -p "$reader") != [^Z]* ]] || failed 'the process that reads outlives its caller'
 fi
 finish

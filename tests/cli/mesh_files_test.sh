@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Tests mesh files as common exporters write them, with other things than triangles, or with wrong extensions. Measure,
-# inspect and import must read them alike and give the same notes.
+# Tests mesh files as common exporters write them, with content other than triangles, or with wrong extensions. Measure,
+# inspect and import must read them in the same way and give the same notes.
 source "$(dirname "$0")/common.sh"
 files=$SOURCE/tests/cli/mesh_files
 
-# measured FILE EXPRESSION NOTE: the JSON satisfies the expression, and JSON and standard error have this note only (''
-# for none).
+# measured FILE EXPRESSION NOTE: measures the file; the JSON must satisfy the expression, and both JSON and standard
+# error must have exactly this note ('' for none).
 measured() {
   expect 0 "$SGM" measure "$1" --json
   json "$2"
@@ -36,11 +36,11 @@ measured missing_coordinates.obj "j.valid && $(near j.volume '8 / 6')" '12 corne
 measured surplus_values.ply "j.valid && $(near j.volume 4.5)" '4 lines have more values than the header declares, the first at line 19'
 measured unpadded.glb "j.valid && $(near j.volume '8 / 6')" 'the length of a chunk is not a multiple of 4 (518), at byte 12'
 
-# A square of one metre with a texture of 256 pixels that is repeated four times in each direction.
+# Measures a square of one metre with a texture of 256 pixels that is repeated four times in each direction.
 expect 0 "$SGM" measure texture_transform.glb --texels 256 --json
 json 'Math.abs(j.texels.mean - 1024) < 0.01 || Math.abs(j.texels.median - 1024) < 0.01'
 
-# The same mesh in UTF-16, and as glTF in text form.
+# Reads the same mesh in UTF-16, and as glTF in text form.
 { printf '\xFF\xFE' && iconv -f UTF-8 -t UTF-16LE concave_l.obj; } >wide.obj
 measured wide.obj "j.valid && $(near j.volume 3)" ''
 node -e '
@@ -56,7 +56,7 @@ err_has 'outside.gltf: buffer 0 lies in another file, `sparse.bin`, at /buffers/
 one_line
 out_empty
 
-# The message names the real format of a file that is no mesh, whatever its name.
+# If a file is no mesh, the message must name its real format, whatever its name.
 printf '\x89PNG\r\n\x1A\n' >picture.glb
 expect 1 "$SGM" measure picture.glb
 err_has 'picture.glb: it is a PNG picture, not a mesh; '
@@ -66,12 +66,12 @@ expect 1 "$SGM" measure grammar.obj
 err_has 'it is a grammar .\.sgm., not a mesh file'
 one_line
 
-# A polygon that crosses itself is reported with its line.
+# A self-intersecting polygon must be reported with its line.
 printf 'v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 2 0\nf 1 2 3 4\n' >bow.obj
 expect 0 "$SGM" measure bow.obj
 err_has '^sgm: note: bow.obj: 1 polygon crosses itself or has no area, at line 5'
 
-# The second file of --against has notes too, and so have classified files.
+# Notes must also be given for the second file of --against, and for classified files.
 expect 0 "$SGM" measure concave_l.obj --against bytes_behind.stl --json
 err_has '^sgm: note: bytes_behind.stl: 16 bytes'
 ball >ball.sgm
@@ -81,7 +81,7 @@ expect 0 "$SGM" classify ball.stl --json
 json 'j.notes.length === 1 && j.notes[0].startsWith("6 bytes after")'
 err_has '^sgm: note: ball.stl: 6 bytes after'
 
-# An upload is read in the same way, whatever its type says, and its report has the notes.
+# An upload must be read in the same way, whatever its declared type, and its report must have the notes.
 "$SGM" inspect --kind stl --name house.stl <glb_named.stl >.frame 2>.err
 last='inspect glb_named.stl'
 [[ -s .err ]] && failed 'inspect speaks on standard error'
@@ -91,7 +91,7 @@ node -e '
 out=$(<.out)
 json "j.valid && $(near j.measures.volume 8) && j.measures.notes.length === 1 && j.measures.notes[0].startsWith('by its bytes')"
 
-# A grammar that imports such a file reports the notes as warnings at the import.
+# A grammar that imports such a file must report the notes as warnings at the import.
 cp lines_beside.glb box.glb
 printf 'sgm 1;\nunits m;\nimport "box.glb" as box;\nstart Box;\nrule Box { size(2m, 2m, 2m) fit box; }\n' >box.sgm
 expect 0 "$SGM" check box.sgm
@@ -99,7 +99,7 @@ expect 0 "$SGM" check box.sgm
 expect 0 "$SGM" measure box.sgm --cell 0.25 --json
 json 'j.valid'
 
-# The .mtl file's name is written so that every reader finds it.
+# The .mtl file's name must be written so that every reader finds the file.
 mkdir 'my meshes'
 expect 0 "$SGM" mesh ball.sgm --cell 0.5 --out 'my meshes/a house ß.obj'
 library=$(sed -n 's/^mtllib //p' 'my meshes/a house ß.obj')

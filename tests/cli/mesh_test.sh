@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests sgm mesh: what it prints and writes, and what it refuses.
+# Tests sgm mesh: its output, the files that it writes, and the calls that it refuses.
 source "$(dirname "$0")/common.sh"
 ball >ball.sgm
 cave=$SOURCE/tests/bench/grammars/cave.sgm
@@ -21,7 +21,7 @@ for format in obj ply stl GLB; do
 done
 rm -f ball.glb ball.obj ball.mtl ball.ply ball.stl ball.GLB
 
-# Texture coordinates: the triangles stay the same, and formats without coordinates are refused.
+# With texture coordinates, the triangles must stay the same; formats without texture coordinates must be refused.
 expect 0 "$SGM" mesh ball.sgm --out plain.glb --json
 json 'j.texture === null'
 plain=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).hash' "$work/.out")
@@ -41,7 +41,8 @@ for format in ply stl; do
 done
 rm -f plain.glb ball.glb ball.obj ball.mtl
 
-# Sharp features: a box gets more vertices at its edges, the same bytes on any number of threads; a ball stays as it is.
+# With sharp features, a box must get more vertices at its edges, and the same bytes with any number of threads; a ball
+# must not change.
 echo 'sgm 1; units m; start Box; rule Box { rot(y, 30deg) rot(x, 20deg) box(4m, 4m, 4m); }' >box.sgm
 expect 0 "$SGM" mesh box.sgm --out box.ply --region=-4,-4,-4:4,4,4 --cell 0.5 --json
 json 'j.area < 95.5 && j.objects === 1'
@@ -55,7 +56,8 @@ done
 cmp -s ball.ply ball--sharp.ply || failed "--sharp changes a ball"
 rm -f box.sgm box.ply sharp.ply again.ply ball.ply ball--sharp.ply
 
-# An .obj is written with its .mtl, which is reported; a .mtl that somebody else wrote is not overwritten.
+# An .obj must be written with its .mtl, and this must be reported; a .mtl file of another program must not be
+# overwritten.
 expect 0 "$SGM" mesh ball.sgm --out ball.obj
 out_has '^ball\.obj, ball\.mtl: [0-9]+ triangles'
 expect 0 "$SGM" mesh ball.sgm --out ball.obj --json
@@ -70,14 +72,14 @@ err_has "cannot write 'ball.mtl'"
 cmp -s ball.mtl theirs && cmp -s ball.obj before || failed "a file of somebody else's was touched"
 rm ball.obj ball.mtl theirs before
 
-# A name that is not UTF-8 is used as it is; JSON has replacement characters instead.
+# A file name that is not UTF-8 must be used unchanged; JSON must have replacement characters instead.
 name=$(printf 'b\xe4ll.glb')
 expect 0 "$SGM" mesh ball.sgm --out "$name" --json
 json 'j.out === "b\ufffdll.glb"'
 [[ -s $name ]] || failed "no file of that name"
 rm "$name"
 
-# An empty mesh: the message gives possible reasons and what to try.
+# For an empty mesh, the message must give possible reasons and advice.
 empty() {
   local why=$1
   shift
@@ -110,7 +112,8 @@ expect 0 "$SGM" mesh rooms.sgm --cell 0.125
 err_empty
 rm rooms.sgm
 
-# The volume is the part of the solid inside the region, whether its border cuts the solid or not, sharp or round.
+# The reported volume must be that of the solid inside the region, whether the border cuts the solid or not, sharp or
+# round.
 printf 'sgm 1;\nstart A;\nrule A { box(10m, 1m, 10m); }\n' >slab.sgm
 for sharp in '' --sharp; do
   expect 0 "$SGM" mesh slab.sgm --cell 0.1 $sharp --json
@@ -122,7 +125,7 @@ rm slab.sgm
 expect 0 "$SGM" mesh "$cave" --region 64,64,64:128,128,128 --cell 1 --json
 json 'j.volume > 64 ** 3 / 2 && j.volume < 64 ** 3 && Math.abs(j.volume / j.cubes.solid - 1) < 0.01'
 
-# For a region of too many chunks, the message suggests a cell size, and that size works.
+# If the region has too many chunks, the message must suggest a cell size that works.
 for level in 0 2; do
   expect 1 "$SGM" mesh ball.sgm --cell 0.01 --max-chunks 10 --level $level --region=-4,-4,-4:4,4,4
   one_line
@@ -132,7 +135,7 @@ done
 expect 1 "$SGM" measure ball.sgm --cell 0.01 --max-chunks 10 --radius 1
 err_has '--cell 0.[0-9]+ fits'
 
-# Coarser levels: cells of twice the edge, chunks of twice the size.
+# A coarser level must have cells of twice the edge and chunks of twice the size.
 expect 0 "$SGM" mesh ball.sgm --cell 0.25 --level 1 --json
 json 'j.level === 1 && j.cell === 0.5 && j.cell_units === 512 && j.region[0].join() === "-16,-16,-16"'
 json 'Math.abs(j.volume - 36 * Math.PI) < 6'
@@ -142,7 +145,7 @@ json "j.triangles === $(sed -n 's/.*"triangles": \([0-9]*\).*/\1/p' <<<"$out_lev
 expect 2 "$SGM" mesh ball.sgm --level 17
 expect 2 "$SGM" mesh ball.sgm --level -1
 
-# Far from the world's origin, positions are relative to the region's corner, and the report says so.
+# Far from the world's origin, positions must be relative to the region's corner, and the report must say so.
 expect 0 "$SGM" mesh ball.sgm --json
 json 'j.origin.join() === "0,0,0" && j.origin_units.join() === "0,0,0"'
 expect 0 "$SGM" mesh ball.sgm --region 5000,0,0:5001,1,1
@@ -151,7 +154,7 @@ expect 0 "$SGM" mesh ball.sgm --region 5000,0,0:5001,1,1 --json
 json 'j.origin.join() === "4992,0,0" && j.origin_units[0] === 4992 * 1024'
 only ball.sgm
 
-# The world does not depend on the number of threads, but on the seed and parameters.
+# The mesh must not depend on the number of threads, but on seed and parameters.
 hash() { sed -n 's/.*"hash": "\([0-9a-f]*\)".*/\1/p' <<<"$out"; }
 expect 0 "$SGM" mesh "$cave" --region 64,64,112:96,96,144 --seed 7 --json --threads 1
 first=$(hash)
@@ -162,17 +165,17 @@ expect 0 "$SGM" mesh "$cave" --region 64,64,112:96,96,144 --seed 8 --json
 expect 0 "$SGM" mesh ball.sgm --region=-4,-4,-4:4,4,4 --set radius=2m --json
 json 'Math.abs(j.area - 16 * Math.PI) < 1.5'
 radius_2m=$(hash)
-# The ball's file says `units m`, so a bare 2 is the same 2 m.
+# The grammar has `units m`, so a value of 2 without a unit must mean 2 m.
 expect 0 "$SGM" mesh ball.sgm --region=-4,-4,-4:4,4,4 --set radius=2 --json
 [[ $(hash) == "$radius_2m" ]] || failed "a bare length is not in the file's units"
 expect 0 "$SGM" mesh ball.sgm --region=-4,-4,-4:4,4,4 --ld 10 --json
 json 'j.cell_units === 102 && Math.abs(j.cell - 0.099609375) < 1e-12'
-# A finite world needs no region.
+# A finite world must need no --region.
 expect 0 "$SGM" mesh ball.sgm --json
 json 'Math.abs(j.area - 4 * Math.PI * 9) < 2'
 only ball.sgm
 
-# Invalid input: status 1, one line, no file.
+# Invalid input must give status 1 and a one-line message, and leave no file.
 wrong() {
   expect 1 "$SGM" mesh ball.sgm --out wrong.glb "$@"
   err_has '^sgm: error: .'
@@ -216,7 +219,7 @@ wrong $region --set no_such_name=2m
 err_has "no parameter 'no_such_name'; it has radius"
 wrong $region --set =
 
-# Invalid usage: status 2.
+# Invalid options must give status 2.
 usage() {
   expect 2 "$SGM" mesh "$@"
   err_has '^sgm: usage: .'
@@ -237,9 +240,9 @@ usage ball.sgm --backend metal
 usage ball.sgm --threads -2
 usage ball.sgm --max-chunks many
 usage ball.sgm --max-chunks -1
-usage "$cave" --out cave.glb  # an endless world without a region
+usage "$cave" --out cave.glb  # error: an infinite world needs --region
 
-# A backend that is not available: status 3.
+# A backend that is not available must give status 3.
 refused() {
   expect 3 "$SGM" mesh ball.sgm --out wrong.glb --backend "$1"
   one_line
@@ -247,7 +250,7 @@ refused() {
 }
 refused cuda
 
-# A Vulkan device, lavapipe at least, writes the same file as the CPU.
+# A Vulkan device, at least lavapipe, must write the same file as the CPU.
 expect 0 "$SGM" backends --json
 if node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1])).backends[1].usable ? 0 : 1)' "$work/.out"; then
   expect 0 "$SGM" mesh ball.sgm $region --out cpu.glb --backend cpu
@@ -260,7 +263,7 @@ else
   refused vulkan
 fi
 
-# Files that cannot be read or written: status 4, one line, no file left behind.
+# Files that cannot be read or written must give status 4 and a one-line message, and leave no file.
 unwritable() {
   expect 4 "$SGM" mesh ball.sgm $region --out "$1"
   err_has '^sgm: error: cannot write '
@@ -274,10 +277,10 @@ unwritable folder.glb
 rmdir folder.glb
 only ball.sgm
 expect 4 "$SGM" mesh none.sgm --out wrong.glb
-# Standard output goes to a full disk.
+# Writes standard output to a full disk.
 "$SGM" mesh ball.sgm $region --json >/dev/full 2>"$work/.err" </dev/null
 [[ $? == 4 ]] || failed "a full standard output went unseen"
-# A disk that fills up, simulated by a limit on file sizes: at the first byte, in the middle, and in the last part.
+# Simulates a disk that becomes full, by a limit on file sizes: at the first byte, in the middle, and in the last part.
 trap '' XFSZ
 for format in glb obj ply stl; do
   printf 'what was here before' >"ball.$format"
@@ -292,21 +295,21 @@ for format in glb obj ply stl; do
 done
 trap - XFSZ
 
-# An output file that cannot be written is reported before the work, which would take minutes here.
+# An output file that cannot be written must be reported before the work, which would take minutes here.
 expect 4 timeout 120 "$SGM" mesh "$cave" --region=-512,-512,-512:512,512,512 --cell 0.1 --max-chunks 99999999 \
   --out nowhere/cave.glb
 one_line
 
-# A signal ends the command at once, at any stage, and leaves no file behind. The result is the same with and without
+# A signal must end the command at once, at any stage, and leave no file. The result must be the same with and without
 # O_TMPFILE; tests/unit/base tests both.
 printf 'what was here before' >cave.obj
 for signal in TERM INT HUP; do
   for delay in 0.02 0.3 1; do
     last="kill -$signal after $delay s"
-    # A script's background jobs ignore SIGINT by default.
+    # A script's background jobs ignore SIGINT, so restore its default action.
     env --default-signal=INT "$SGM" mesh "$cave" --region=-192,-192,-192:192,192,192 --cell 0.1 --max-chunks 99999999 \
       --out cave.obj >"$work/.out" 2>"$work/.err" </dev/null &
-    # Waits until the command runs: on a busy machine its start may take longer than the shortest delay.
+    # Waits until the command has started: on a busy machine this may take longer than the shortest delay.
     until [[ $(readlink "/proc/$!/exe") == "$(readlink -f "$SGM")" || ! -d /proc/$! ]]; do sleep 0.01; done
     sleep $delay
     kill -$signal $!
@@ -319,7 +322,7 @@ done
 [[ $(cat cave.obj) == 'what was here before' ]] || failed "a signal took something"
 rm cave.obj
 
-# The old file at --out stays until the new one is complete.
+# The old file at --out must stay until the new one is complete.
 printf 'before' >ball.glb
 expect 1 "$SGM" mesh ball.sgm $region --cell 0 --out ball.glb
 [[ $(cat ball.glb) == before ]] || failed "a failure touched the file"

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Tests sgm paper: every figure and table is there, the page is well-formed, its pictures are valid, its numbers
-# plausible; a refused call leaves no files behind.
+# Tests sgm paper: every figure and table must be present, the page well-formed, its pictures valid, its numbers
+# plausible; a refused call must leave no files.
 source "$(dirname "$0")/common.sh"
 
-# Calls that are refused before any work.
+# These calls must be refused before any work.
 wrong() {
   expect "$@"
   out_empty
@@ -30,8 +30,8 @@ fi
 rm -r file full
 only
 
-# page FOLDER: checks that the page is well-formed XML, its links lead somewhere, all its pictures are there, are PNGs
-# of more than one colour, and that the folder of pictures has nothing else.
+# page FOLDER: checks that the page is well-formed XML, its links lead to existing targets, all its pictures exist and
+# are PNGs of more than one colour, and the folder of pictures contains nothing else.
 page() {
   node - "$1" <<'JS' || failed "the page in $1"
 const fs = require("fs"), zlib = require("zlib"), path = require("path");
@@ -77,8 +77,8 @@ if (there.length !== new Set(images.map((i) => i.src)).size) fail("pictures that
 JS
 }
 
-# commands FOLDER PATTERN: runs the commands on the page that match, in its folder, through a shell as a reader would;
-# they must succeed and leave the folder as it was.
+# commands FOLDER PATTERN: runs, in that folder, all commands printed on the page that match the pattern, through a
+# shell as a reader would. They must succeed and leave the folder unchanged.
 commands() {
   local before line count=0
   before=$(find "$1" -type f -exec cksum {} + | sort)
@@ -101,7 +101,7 @@ commands() {
   [[ $before == "$(find "$1" -type f -exec cksum {} + | sort)" ]] || failed "the commands changed $1"
 }
 
-# One part without pictures needs no device. Two runs give the same bytes.
+# A report without pictures needs no device. Two runs must give the same bytes.
 expect 0 "$SGM" paper --out part --only density --quick --no-pictures --json
 json 'Object.keys(j.exhibits).join() === "figure-10,figure-11" && j.quick'
 json 'Math.abs(j.exhibits["figure-10"].ball_order - 2) < 0.1 && Math.abs(j.exhibits["figure-11"].ball_order - 2) < 0.1'
@@ -110,13 +110,13 @@ json 'j.exhibits["figure-10"].models.map(m => m.model).join() === "cave,cloud,bu
 page part
 expect 0 "$SGM" paper --out again --only density --quick --no-pictures
 cmp -s part/index.html again/index.html || failed "two runs differ"
-# The same without --quick, where cells are finer; in the long run, all parts.
+# Makes the same report without --quick, with finer cells; in the long run, with all parts.
 expect 0 "$SGM" paper --out fine --only density --no-pictures --json
 json '!j.quick && Math.abs(j.exhibits["figure-10"].ball_order - 2) < 0.1'
 json 'j.exhibits["figure-10"].roughness.every(m => m.values.length > 4)'
 page fine
 rm -r fine
-# An earlier report is replaced; a folder with other files in it is not.
+# An earlier report must be replaced; a folder with other files in it must not.
 expect 0 "$SGM" paper --out again --only cave --quick --no-pictures --json
 json 'Object.keys(j.exhibits).join() === "figure-8"'
 json 'j.exhibits["figure-8"].series.every((s, i, all) => i === 0 || all[i - 1].morph !== s.morph || s.volume < all[i - 1].volume)'
@@ -132,8 +132,8 @@ echo '// mine' >>again/grammars/cave.sgm
 wrong 4 "$SGM" paper --out again --only cave --quick --no-pictures
 err_has 'grammars/cave.sgm in it has changed'
 rm -r again
-# A signal arrives while a new report replaces an earlier one: the replacement is finished first, so the folder holds
-# one whole report.
+# If a signal arrives while a new report replaces an earlier one, the replacement must be finished first, so that the
+# folder contains one complete report.
 expect 0 "$SGM" paper --out again --only cave --quick --no-pictures
 "$SGM" paper --out again --only density --quick --no-pictures >.out 2>.err &
 process=$!
@@ -143,14 +143,13 @@ wait $process
 [[ $? == 143 ]] || failed "it did not end by the signal"
 only part again
 cmp -s part/index.html again/index.html || failed "what is there is not the report that was being written"
-# The commands on the page work in its folder, also the one that makes the page again, with the options it was made
-# with.
+# The commands on the page must work in its folder, including the one that makes the page again with the same options.
 grep -q 'sgm paper --only density --out ../density --quick --no-pictures$' part/index.html || failed "the command of the part"
 commands part .
 only part again
 (cd part && "$SGM" check grammars/*.sgm grammars/*/*.sgm >/dev/null) || failed "the report's grammars do not compile"
 rm -r again
-# A report that does not fit on the disk leaves no files behind.
+# A report that does not fit on the disk must leave no files.
 expect 4 bash -c 'ulimit -f 8; "$1" paper --out large --only density --quick --no-pictures' _ "$SGM"
 only part
 rm -r part
@@ -167,7 +166,7 @@ fi
 wrong 3 env VK_DRIVER_FILES=/nowhere.json VK_ICD_FILENAMES=/nowhere.json "$SGM" paper --out report --quick
 err_has '--no-pictures'
 
-# The whole report.
+# Makes the complete report.
 expect 0 "$SGM" paper --out report --quick --json
 page report
 only report
@@ -176,18 +175,18 @@ json 'j.exhibits["figure-1"].nodes_a_point === 3 && j.exhibits["figure-2"].nodes
 json 'j.exhibits["figure-9"].houses.length === 6 && j.exhibits["figure-9"].houses.every(h => h.watertight && h.volume > 100)'
 json 'j.exhibits["figure-12"].kinds.map(k => k.kind).join() === "architecture,caves,clouds" && j.exhibits["figure-12"].cloud_of_ten_seed !== null'
 json 'j.exhibits["figure-14"].densities.map(d => d.ld).join() === "2,5,10" && j.exhibits["figure-14"].densities.every(d => d.class === "building")'
-# The paper's own observation: counted by angle, the largest bar grows with the density.
+# Checks the paper's own observation: if edges are counted by angle, the largest bar grows with the density.
 json 'j.exhibits["figure-14"].densities.every((d, i, all) => i === 0 || d.largest_share.corrected > all[i - 1].largest_share.corrected)'
 json 'j.exhibits["figure-15"].modes.every(m => Object.values(m.mean).every(h => Math.abs(h.reduce((a, b) => a + b) - 1) < 1e-9))'
 json 'j.exhibits["figure-15"].modes[2].right > 0.8 * j.exhibits["figure-15"].modes[2].models'
 json 'j.exhibits["figure-16"].points.every(p => p.seconds > 0 && p.triangles > 0)'
 json 'j.exhibits["table-1"].stages.length === 3 && j.exhibits["table-1"].stages.every(s => s.rows[0].speedup === 1)'
 json 'j.exhibits["table-4"].systems.length === 10'
-# table4: compares Table 4 as we measure it with the paper's, sign by sign. A YES in the paper may be another sign here
-# only for:
-# - caves of a cellular automaton, and small clouds beside towers, which no built-in master resembles;
-# - Greuter's morphing, which our grammar lacks;
-# - without --quick, worlds classified at finer cells than those of the masters that are most similar.
+# table4: compares our measured Table 4 with the paper's, sign by sign. Where the paper has YES, we may have another
+# sign only for:
+# - caves of a cellular automaton, and small clouds beside towers: no built-in reference histogram is similar to these;
+# - Greuter's morphing, which our grammar of that system does not have;
+# - without --quick, worlds that are classified with finer cells than the most similar reference histograms.
 table4() {
   node - .out "$1" <<'JS' || failed "table 4"
 const { systems } = JSON.parse(require("fs").readFileSync(process.argv[2], "utf8")).exhibits["table-4"];
@@ -222,7 +221,7 @@ for (const { system, criteria } of systems) {
 JS
 }
 table4 quick
-# The command printed for figure 14 reports the same largest bar and below-array counts as the page.
+# The command printed for figure 14 must report the same largest bar as the page, and as many entries with index <= 0.
 house=$(node -p 'JSON.stringify(JSON.parse(require("fs").readFileSync(".out")).exhibits["figure-14"].densities[0])')
 cp .out numbers.json
 line=$(grep -o 'sgm measure grammars/storeys.sgm .*--ld 2 .*--mode printed.*' report/index.html | head -1)
@@ -230,8 +229,8 @@ line=$(grep -o 'sgm measure grammars/storeys.sgm .*--ld 2 .*--mode printed.*' re
 last=$line
 json "Math.max(...j.histogram.shares) === $house.largest_share.printed && j.histogram.entries_index_le_0 === $house.entries_index_le_0"
 mv numbers.json .out
-# The signs for surfaces, vertices and holes follow from the commands on the page: checked for two cut worlds and a
-# whole one, and for all in the long run.
+# The signs for surfaces, vertices and holes must follow from the commands on the page. This is checked for two cut
+# worlds and a whole one, and for all in the long run.
 node -e 'for (const s of JSON.parse(require("fs").readFileSync(".out")).exhibits["table-4"].systems) console.log(s.criteria["No holes"].command)' >holes
 [[ $(wc -l <holes) == 10 ]] || failed "a system without a command"
 [[ ${SGM_LONG-} == 1 ]] || sed -i -n '/greuter\|marson\|gkm/p' holes

@@ -1,5 +1,7 @@
-// Reads a picture that sgm wrote: node png.js FILE [X Y WIDE HIGH] prints, for the whole picture or for that rectangle,
-// the mean of red + green + blue (0..765), and the number of pixels where this sum is below 240.
+// Reads a PNG that sgm wrote. For the whole picture or a rectangle of it, prints the mean of red + green + blue
+// (0..765), and the number of pixels where this sum is below 240.
+//
+//   node png.js FILE [X Y WIDE HIGH]
 const fs = require('fs'), zlib = require('zlib');
 const png = fs.readFileSync(process.argv[2]), parts = [];
 for (let at = 8; at < png.length; ) {

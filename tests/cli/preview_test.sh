@@ -40,7 +40,7 @@ read -r -t 60 number <display || { cat xvfb.log >&2; echo "FAILED: no virtual di
 export DISPLAY=:$number
 unset WAYLAND_DISPLAY
 
-# The second text of ball.sgm imports the library that holds the ball of the first one.
+# Makes ball.sgm import the file parts.sgm, which contains its shape.
 printf 'sgm 1;\nunits m;\nrule Stone(r) { sphere(r); mat marble; tag "stone"; }\n' >parts.sgm
 world() {
   printf 'sgm 1;\nimport "parts.sgm" as parts;\nunits m;\nparam radius = %s in 1m..3.5m "of the ball";\nstart Ball;\nrule Ball { parts.Stone(radius); }\n' "$1"
@@ -50,8 +50,8 @@ world 3m >ball.sgm
 "$SGM" preview ball.sgm --json --size 800x600 --seed 3 >events 2>errors &
 previewed=$!
 
-# await EXPRESSION [FROM]: waits for an event line after the first FROM ones that satisfies it; prints that line's
-# number.
+# await EXPRESSION [FROM]: waits for an event line, after the first FROM lines, that satisfies the expression; prints
+# its line number.
 await() {
   node -e '
     const fs = require("fs"), [wanted, from] = [process.argv[1], Number(process.argv[2])];
@@ -66,7 +66,7 @@ await() {
       setTimeout(look, 20);
     })();' "$1" "${2:-0}"
 }
-# waited EXPRESSION: like await, starting after the last line that was awaited.
+# waited EXPRESSION: same as await, but starts after the line that was awaited last.
 seen=0
 waited() {
   local now
@@ -76,10 +76,11 @@ waited() {
 }
 key() { xdotool search --sync --name 'sgm preview' windowfocus --sync key "$1"; }
 
-# A draft is drawn first, then the full picture.
+# A draft must be drawn first, then the full picture.
 waited 'j.event === "picture" && j.draft && j.seed === 3 && j.triangles > 100 && j.width * j.height < 100000'
 waited 'j.event === "picture" && !j.draft && j.width === 800 && j.height === 600 && j.messages === "" && j.triangles > 1000'
-# The window has a picture: its middle is pale marble, beside it is sky.
+# colour X Y EXPRESSION: tests the colour of a pixel of the screen. The window's middle must be pale marble, with sky
+# around it.
 colour() {
   node -e '
     const d = require("fs").readFileSync("Xvfb_screen0"), u = (i) => d.readUInt32BE(4 * i);
@@ -102,7 +103,7 @@ shown() {
 shown 400 300 'c[0] > 60 && Math.abs(c[0] - c[2]) < 60' "no ball in the middle of the window"
 shown 780 20 'c[2] > c[0] + 20' "no sky beside it"
 
-# A saved file is drawn at once, also an imported one. Errors are reported, and the last picture stays.
+# A saved file must be drawn at once, also if it is imported. Errors must be reported, and the last picture must stay.
 world 1.5m >ball.sgm
 waited 'j.event === "picture" && j.draft && j.messages === ""'
 waited 'j.event === "picture" && !j.draft'
@@ -115,7 +116,7 @@ world 3m >ball.sgm
 sed -i 's/box(r, r, r)/sphere(r)/' parts.sgm
 waited 'j.event === "picture" && !j.draft && j.messages === ""'
 
-# A click reports the rule; the wheel zooms in; H resets the camera; P prints the command.
+# A click must report the rule, the wheel must zoom in, H must reset the camera, and P must print the command.
 xdotool search --sync --name 'sgm preview' windowfocus --sync mousemove --window %1 400 300 sleep 0.1 click 1
 waited 'j.event === "place" && j.path === "Ball/parts.Stone[0]" && j.source === "parts.sgm:3:17" && j.material === "marble" && j.tag === "stone"'
 before=$(tail -n +1 events | grep '"draft":false' | tail -1)
@@ -128,7 +129,7 @@ xdotool search --sync --name 'sgm preview' mousemove --window %1 60 97 sleep 0.1
 waited 'j.event === "picture" && !j.draft && j.sets.join() === "radius=3.5m"'
 key p
 waited 'j.event === "command" && /^sgm render ball.sgm .*--seed 3 --set radius=3.5m --region=.* --cell .* --camera=/.test(j.command)'
-# The last printed command; pictures may still have been reported after it.
+# Use the last printed command; more pictures may have been reported after it.
 command=$(grep '"event":"command"' events | tail -1 | node -p 'JSON.parse(require("fs").readFileSync(0)).command')
 # shellcheck disable=SC2086  # the command's words
 expect 0 "$SGM" ${command#sgm }

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Tests sgm render: pictures, cameras and refusals. Needs a Vulkan device, lavapipe at least.
+# Tests sgm render: pictures, cameras and refused calls. Needs a Vulkan device, at least lavapipe.
 source "$(dirname "$0")/common.sh"
 ball >ball.sgm
 cave=$SOURCE/tests/bench/grammars/cave.sgm
 
 expect 0 "$SGM" backends --json
 if ! node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1])).vulkan_devices.length ? 0 : 1)' "$work/.out"; then
-  # Without a device, the command reports that.
+  # Without a device, the command must report that.
   expect 3 "$SGM" render ball.sgm --out ball.png
   one_line
   only ball.sgm
@@ -15,7 +15,7 @@ if ! node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1]
   exit 77
 fi
 
-# picture FILE WIDTH HEIGHT: fails unless it is a PNG of that size.
+# picture FILE WIDTH HEIGHT: fails unless FILE is a PNG of that size.
 picture() {
   [[ $(head -c 8 "$1" | od -An -tx1 | tr -d ' \n') == 89504e470d0a1a0a ]] || failed "$1 is no PNG"
   [[ $(od -An -tx1 -j16 -N8 "$1" | tr -d ' \n') == "$(printf '%08x%08x' "$2" "$3")" ]] || failed "$1 is not $2x$3"
@@ -37,7 +37,7 @@ json 'j.texture.wedges > j.vertices'
 picture chequered.png 64 64
 cmp -s chequered.png looked.png && failed "chequers are not drawn"
 rm chequered.png
-# --pixels makes cells smaller near the camera; the camera that the command chooses stays the same.
+# --pixels must make cells smaller near the camera; the camera that the command chooses must stay the same.
 expect 0 "$SGM" render ball.sgm --out plain.png --size 160x90 --json
 even=$(<"$work/.out")
 expect 0 "$SGM" render ball.sgm --out fine.png --pixels 2 --size 160x90 --json
@@ -53,7 +53,8 @@ expect 2 "$SGM" render ball.sgm --out ball.png --pixels 2 --volume
 expect 2 "$SGM" render ball.sgm --out ball.png --pixels 2 --plan
 expect 0 "$SGM" render "$cave" --out at.png --at spawn --region=0,0,0:192,192,192 --cell 2 --size 64x64 --seed 7
 picture at.png 64 64
-# Of an endless world, it shows the component nearest to the origin as a whole, with cells as large as that needs.
+# Of an infinite world, the command must show the component nearest to the origin as a whole, with cells large enough
+# for that.
 cat >sky.sgm <<'END'
 sgm 1;
 domain infinite axes xz;
@@ -68,7 +69,7 @@ rm sky.sgm sky.png part.png
 
 expect 0 "$SGM" render "$cave" --out level.png --level 1 --cell 1 --size 64x64 --seed 7 --json
 json 'j.level === 1 && j.cell === 2'
-# The mesh's edges are drawn dark: finer cells give more of them.
+# dark FILE: prints the number of dark pixels. The mesh's edges are drawn dark, so finer cells must give more.
 dark() { node "$SOURCE/tests/cli/png.js" "$1" | cut -d" " -f2; }
 look=(--camera 0,2,9:0,0,0 --size 256x256)
 expect 0 "$SGM" render ball.sgm --out plain.png --cell 1 "${look[@]}"
@@ -81,7 +82,7 @@ expect 2 "$SGM" render ball.sgm --out wrong.png --wires --volume
 err_has 'excludes'
 err_has '--wires'
 [[ ! -e wrong.png ]] || failed "a picture was written"
-# The solid is drawn as fog, from the same camera.
+# With --volume, the solid must be drawn as fog, from the same camera.
 printf 'sgm 1;\nunits m;\ndomain finite box(8m) output density edge 2m;\nstart Puff;\nrule Puff { sphere(3m); }\n' >fog.sgm
 expect 0 "$SGM" render fog.sgm --out solid.png --size 96x64 --json
 camera=$(node -p 'JSON.stringify(JSON.parse(require("fs").readFileSync(process.argv[1])).camera)' "$work/.out")
@@ -96,15 +97,16 @@ out_has 'density +at 274625 points'
 expect 1 "$SGM" render ball.sgm --out wrong.png --volume
 one_line
 err_has 'output density'
-# A density edge thinner than samples can resolve is refused.
+# A density edge thinner than samples can resolve must be refused.
 expect 1 "$SGM" render fog.sgm --out wrong.png --volume --cell 0.0004 --region=2.99,0,0:3.01,0.01,0.01
 one_line
 err_has 'edge'
 rm ./*.png fog.sgm
 only ball.sgm
 
-# What the camera sees decides between sun and lamp, wherever the region ends; the choice is reported, and can be
-# overridden. The numbers are means of red + green + blue: a day is bright, a cave is not, and neither is black.
+# The choice between sun and lamp must depend on what the camera sees, wherever the region ends. The choice must be
+# reported, and an option must override it. The numbers are means of red + green + blue: a day is bright, a cave is not,
+# and neither is black.
 cat >town.sgm <<'END'
 sgm 1;
 units m;
@@ -133,7 +135,8 @@ units m;
 start Hill;
 rule Hill { at(0m, 10m, -40m) box(60m, 40m, 80m); cut capsule((0m, 0m, 4m), (0m, 0m, -70m), 3m); mat limestone; }
 END
-# lit LIGHT MIN-MAX GRAMMAR OPTION...: expects this light to be chosen, and a mean of red + green + blue in this range.
+# lit LIGHT MIN-MAX GRAMMAR OPTION...: expects that this light is chosen, and that the mean of red + green + blue is in
+# this range.
 lit() {
   local light=$1 low=${2%-*} high=${2#*-} mean
   shift 2
@@ -154,7 +157,7 @@ lit lamp 20-300 mouth.sgm --cell 0.5 --camera 0,0,-40:0,0,-60
 lit lamp 20-300 "$cave" --cell 1 --seed 7
 lit lamp 20-300 "$SOURCE/samples/grammars/passage.sgm" --cell 1 --camera 32,0,0:64,0,0 --region=0,-16,-16:160,16,16
 lit sun 150-700 "$SOURCE/samples/grammars/cloud.sgm"
-# A camera inside the rock sees the parts that are cut open.
+# A camera inside the rock must see the parts that are cut open.
 expect 0 "$SGM" render mouth.sgm --out lit.png --size 96x54 --json --cell 0.5 --camera 25,2,-40:0,0,-40
 json 'j.light === "sun" && j.daylight === null'
 expect 0 "$SGM" render hall.sgm --out lit.png --size 32x18 --cell 1 --camera 0,1.7,-15:0,3,15
@@ -166,10 +169,11 @@ for light in sun lamp none; do
 done
 cmp -s sun.png lamp.png && failed "--light changes nothing"
 cmp -s lamp.png none.png && failed "--light none has a lamp"
-# With even light from all sides, no part of the street's ground is dark.
+# With uniform light from all sides, no part of the street's ground must be dark.
 read -r mean _ < <(node "$SOURCE/tests/cli/png.js" none.png 20 40 56 14)
 ((mean > 60)) || failed "by --light none the ground's mean is $mean"
-# The lamp stands at an anchor of kind `light`: of two walls, it lights the nearer one more. x grows to the left.
+# The lamp must be placed at an anchor of kind `light`: of two walls, it lights the nearer one more. In the picture, x
+# grows to the left.
 walls() {
   expect 0 "$SGM" render hall.sgm --out walls.png --size 96x54 --cell 0.5 --camera 0,1.7,-15:0,3,15 --light lamp --set "side=$1"
   left=$(node "$SOURCE/tests/cli/png.js" walls.png 33 20 6 10 | cut -d" " -f1)
@@ -184,13 +188,14 @@ expect 2 "$SGM" render town.sgm --out wrong.png --light lamp --volume
 err_has 'excludes'
 rm town.sgm hall.sgm mouth.sgm lit.png sun.png lamp.png none.png walls.png
 
-# Of anchors at the border and inside the region, one inside is chosen.
+# If there are anchors at the border and inside the region, one inside must be chosen.
 printf '%s\n' 'sgm 1; domain infinite solid rock; layer a cell 32m reach 9m { start A; }' \
   'rule A { cut at(3m, 16m, 16m) sphere(8m); at(3m, 16m, 16m) anchor spawn; }' >row.sgm
 expect 0 "$SGM" render row.sgm --out row.png --at spawn --region 0,0,0:96,32,32 --cell 1 --size 32x32 --json
 json 'j.camera.position[0] > 12'
 rm row.sgm row.png
-# A note reports that an anchor inside rock is not used; one in a hollow is, though the camera stands back from it.
+# A note must report that an anchor inside rock is not used. An anchor in a hollow must be used, although the camera
+# stands back from it.
 printf '%s\n' 'sgm 1; domain finite box(24m, 24m, 24m); start A;' \
   'rule A { box(20m); cut { sphere(6m); anchor spawn; } at(0m, 11m, 0m) anchor beacon; }' >hollow.sgm
 expect 0 "$SGM" render hollow.sgm --out hollow.png --at spawn --cell 1 --size 32x32
@@ -201,8 +206,8 @@ expect 0 "$SGM" render hollow.sgm --out hollow.png --at beacon --cell 1 --size 3
 err_has 'note: --at beacon is ignored'
 rm hollow.sgm hollow.png
 
-# Seeds are drawn side by side, in about as many columns as rows; a seed that fails keeps its place, is reported, and
-# determines the exit status.
+# Several seeds must be drawn side by side, in about as many columns as rows. If a seed fails, its place must stay
+# empty, and the error must be reported and determine the exit status.
 cat >fickle.sgm <<'END'
 sgm 1;
 units m;
@@ -239,7 +244,7 @@ expect 1 "$SGM" render ball.sgm --out wrong.png --seeds 1..3 --sheet --cell 0
 one_line
 rm fickle.sgm sheet.png
 
-# --frame shows one use of a rule, filling the picture, from a side where it is visible.
+# --frame must show one use of a rule so that it fills the picture, from a side where it is visible.
 cat >posts.sgm <<'END'
 sgm 1;
 units m;
@@ -254,7 +259,7 @@ json 'j.cell < 0.5 && j.camera.position[1] > 0'
 picture post.png 96 96
 expect 0 "$SGM" render posts.sgm --out post.png --frame Post --size 32x32 --region=0,-4,0:32,8,32
 out_has 'frame +rows\(0, 0, 0\)/Row/Post\[[0-2]\], [0-9]+ % of its near side visible'
-# A room is shown from inside.
+# A room must be shown from inside.
 lake=$SOURCE/tests/bench/grammars/lake.sgm
 expect 0 "$SGM" render "$lake" --out post.png --frame Room --seed 3 --size 32x32 --cell 1 --json
 json 'j.frame.inside && j.frame.path.endsWith("/Node/Room[0]") && j.light === "lamp"'
@@ -302,7 +307,7 @@ expect 1 "$SGM" render ball.sgm --out wrong.png --camera 0,0,8:0,0,8
 expect 4 "$SGM" render ball.sgm --out nowhere/ball.png --size 64x64
 one_line
 expect 4 "$SGM" render none.sgm --out wrong.png
-# An output file that cannot be written is reported before the work.
+# An output file that cannot be written must be reported before the work.
 expect 4 timeout 120 "$SGM" render "$cave" --out nowhere/cave.png --region=-512,-512,-512:512,512,512 --cell 0.1 \
   --max-chunks 99999999
 one_line

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Tests that every sample grammar has expectations, and satisfies them; in the long run with 100 seeds.
+# Tests that every sample grammar has expectations and satisfies them; in the long run, for 100 seeds.
 source "$(dirname "$0")/common.sh"
 seeds=1
 [[ ${SGM_LONG-} != 1 ]] || seeds=100
 for grammar in "$SOURCE"/samples/grammars/*.sgm "$SOURCE"/samples/grammars/table4/*.sgm; do
   grep -q '^expect ' "$grammar" || { last=$grammar && failed "no expectation"; }
-  # A sky takes long with its finest cells: of its many seeds, only the first is evaluated with them.
+  # Skies take long with their finest cells, so of many seeds only the first is evaluated with them.
   cell=()
   [[ $seeds == 1 || ! $grammar =~ (birger|/cloud) ]] || cell=(--cell 2)
   expect 0 "$SGM" check --expect "$grammar" --seeds "$seeds" ${cell[@]+"${cell[@]}"}

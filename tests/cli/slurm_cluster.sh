@@ -1,5 +1,6 @@
-# Sourced: starts a real Slurm of some nodes on this one machine, as processes of our own that end with the caller's
-# shell. Needs root, and Debian's slurm-wlm and munge. The system's own munge and Slurm stay untouched.
+# Sourced by tests: starts a real Slurm cluster of several nodes on this one machine, as processes of our own that end
+# with the caller's shell. Needs root, and Debian's packages slurm-wlm and munge. The system's own munge and Slurm stay
+# untouched.
 
 # cluster_start FOLDER NODES: starts the cluster in FOLDER, and sets SLURM_CONF.
 cluster_start() {
@@ -49,8 +50,8 @@ CONF
   return 1
 }
 
-# cluster_kill_node_of PATTERN: waits for a process of a job whose command line matches, and kills its node as if the
-# power had failed; sets `victim` to the node's name. Status 1 if no such process appeared.
+# cluster_kill_node_of PATTERN: waits for a process of a job whose command line matches, and kills all processes of its
+# node, as a power failure would; sets `victim` to the node's name. Status 1 if no such process appeared.
 cluster_kill_node_of() {
   local pid parent
   victim=
@@ -62,7 +63,7 @@ cluster_kill_node_of() {
     sleep 0.02
   done
   [[ -n $victim ]] || return 1
-  # slurmstepd is killed first, since it would report the end of the job to the controller.
+  # Kill slurmstepd first, since it would report the end of the job to the controller.
   parent=$(sed -n 's/^PPid:\t//p' "/proc/$pid/status" 2>/dev/null)
   [[ $(cat "/proc/$parent/comm" 2>/dev/null) == slurmstepd ]] || return 1
   kill -9 "$parent" "$(<"$cluster/slurmd-$victim.pid")" "$pid"

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# Tests sgm bake --slurm on a real Slurm of three nodes: its store equals that of one process, also if a node dies
-# during the bake.
+# Tests sgm bake --slurm on a real Slurm cluster of three nodes: its store must equal that of a single process, even if
+# a node dies during the bake.
 source "$(dirname "$0")/slurm_cluster.sh"
 source "$(dirname "$0")/common.sh"
 cave=$SOURCE/tests/bench/grammars/cave.sgm
 world=("$cave" --seed 3 --region 0,0,0:512,512,256 --levels 0..6 --cell 0.25 --backend cpu)
 
-# Without Slurm, there is one clear error.
+# Without Slurm, there must be one clear error.
 expect 4 env PATH=/nowhere "$SGM" bake "$cave" --seed 3 --region 0,0,0:64,64,64 --levels 0 --backend cpu --out none --slurm 2
 err_has 'sbatch cannot be run'
 err_has 'samples/bake'
 one_line
 rm -r none
-# The error is the same if only a part of Slurm is installed.
+# If only a part of Slurm is installed, the error must be the same.
 mkdir part
 printf '#!/bin/sh\necho 1\n' >part/sbatch
 chmod +x part/sbatch
@@ -43,11 +43,11 @@ expect 0 bash -c 'grep -h "complete and closed" shared/slurm/*/verify.txt'
 expect 0 "$SGM" bake "${world[@]}" --out shared --slurm 7
 out_has 'already baked'
 
-# A node dies while it bakes; its shard is restarted on another node, long after the others have ended.
+# Kills a node while it bakes: its shard must be restarted on another node, long after the other shards have ended.
 expect 0 "$SGM" bake "${world[@]}" --out hurt --slurm 3 --detach
 out_has '0 failed'
 cluster_kill_node_of "$work/hurt.*--shard [0-9]+/3" || failed "no shard has been met"
-# Slurm delays the restart of a dead node's shard by two minutes; this loop releases it earlier.
+# Slurm delays the restart of a dead node's shard by two minutes; this loop makes Slurm restart it at once.
 (
   for _ in $(seq 120); do
     sleep 0.5
@@ -57,7 +57,7 @@ cluster_kill_node_of "$work/hurt.*--shard [0-9]+/3" || failed "no shard has been
   done
 ) >/dev/null 2>&1 &
 hurry=$!
-# Whatever number of shards is given, a bake in progress is not started again.
+# A bake in progress must not be started again, whatever number of shards is given.
 expect 0 "$SGM" bake "${world[@]}" --out hurt --slurm 5 --detach --json
 err_has 'are under way'
 json 'j.shards === 3'
@@ -68,7 +68,7 @@ kill $hurry
 expect 0 diff -r -x slurm alone hurt
 grep -q "Requeuing\|requeue" cluster/log/slurmctld.log || failed "no shard was started anew"
 
-# A refusal by sbatch is reported in its own words, and no job is left in the queue.
+# If sbatch refuses a job, its own message must be reported, and no job must be left in the queue.
 expect 4 "$SGM" bake "$cave" --seed 3 --region 0,0,0:64,64,64 --levels 0 --backend cpu --out none --slurm 2 \
   --sbatch=--partition=none
 err_has 'invalid partition'

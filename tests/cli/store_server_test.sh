@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Tests a world streamed from a store on a real web server: it is the same world whether the server works, disappears,
-# or never existed.
+# Tests a world streamed from a store on a real web server: the world must be the same whether the server works,
+# disappears, or never existed.
 source "$(dirname "$0")/common.sh"
 nginx=$(PATH=$PATH:/usr/sbin command -v nginx) || {
   [[ -z ${SGM_REQUIRE_ALL:-} ]] || { echo "nginx is missing: install the package nginx-light" >&2; exit 1; }
   echo "skipped: nginx is not installed"
   exit 77
 }
-# Tests connect to this machine directly, without a proxy.
+# Connect to this machine directly, without a proxy.
 unset http_proxy https_proxy all_proxy HTTP_PROXY HTTPS_PROXY ALL_PROXY
 cave=$SOURCE/tests/bench/grammars/cave.sgm
 expect 0 "$SGM" bake "$cave" --seed 3 --region 0,0,0:192,160,192 --levels 0..5 --backend cpu --out public/caves/store
@@ -16,7 +16,7 @@ stop_serving() { kill -TERM "$server" 2>/dev/null; wait "$server" 2>/dev/null; }
 # serve: starts nginx on a free port; sets `address` to the store's URL.
 serve() {
   local user='' port try i
-  ((EUID != 0)) || user='user root;'  # the folder is nobody else's
+  ((EUID != 0)) || user='user root;'  # nginx runs as root, too, since only root may read the folder
   for ((try = 0; try < 5; ++try)); do
     port=$((20000 + RANDOM % 20000))
     cat >"$work/nginx.conf" <<END
@@ -56,18 +56,18 @@ json 'j.open_edges === 0 && j.stores.hits > 500'
 hash=$(hash_of)
 hits=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).stores.hits' "$work/.out")
 
-# With the server running: parts load as from the folder, with far fewer requests than parts.
+# While the server works, parts must load as from a folder, with far fewer requests than parts.
 expect 0 "$SGM" "${flight[@]}" --edits 4 --store "$address/"
 json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits > $hits * 0.9 && j.stores.damaged === 0"
 err_empty
 [[ $(grep -c ' 206 ' access.log) -gt 5 && $(grep -c ' 206 ' access.log) -lt $((hits / 4)) ]] ||
   failed "$(grep -c ' 206 ' access.log) requests for $hits parts"
-# The store has moved: redirections are followed.
+# If the store has moved, redirections must be followed.
 expect 0 "$SGM" "${flight[@]}" --edits 4 --store "${address%/caves/store}/moved"
 json "j.world_hash === '$hash' && j.stores.hits > 500"
 err_empty
 
-# A missing or forbidden store: one line is reported, and the world is the same.
+# If the store is missing or forbidden, one line must be reported, and the world must be the same.
 for place in "${address%/store}/nothing" "${address%/caves/store}/secret"; do
   expect 0 "$SGM" "${flight[@]}" --edits 4 --store "$place"
   json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits === 0"
@@ -75,7 +75,7 @@ for place in "${address%/store}/nothing" "${address%/caves/store}/secret"; do
   one_line
 done
 
-# With a cache folder, parts that were loaded once are read from there.
+# With a cache folder, parts that were loaded once must be read from there.
 expect 0 "$SGM" "${flight[@]}" --edits 4 --store "$address" --cache cache
 json "j.world_hash === '$hash' && j.stores.hits > 500"
 stop_serving
@@ -83,11 +83,11 @@ expect 0 "$SGM" "${flight[@]}" --edits 4 --store "$address" --cache cache
 json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits === 0 && j.cache.hits > 100"
 err_has 'cannot be read \(.*chunks are derived instead; the server is asked again'
 one_line
-# The server was never there.
+# Here the server never runs.
 expect 0 "$SGM" "${flight[@]}" --edits 4 --store "$address"
 json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits === 0 && j.stores.damaged === 0"
 one_line
-# The server disappears and comes back during a flight that has begun to read.
+# The server disappears and comes back during a flight that has begun to read from it.
 serve
 : >access.log
 paced=()
@@ -104,7 +104,7 @@ status=$? out=$(<"$work/.out") err=$(<"$work/.err") last="a flight whose server 
 [[ $status == 0 ]] || failed "status 0 expected"
 json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits > 0"
 
-# Invalid addresses are refused in one line.
+# Invalid addresses must be refused with a one-line message.
 for place in http:// "http://host/a?b" "https://me:secret@host/ä" "HTTPS://me:secret@host/#" ftp://me:secret@host/x; do
   expect 1 "$SGM" fly "$cave" --frames 1 --unpaced --store "$place"
   err_has 'is not an address of a store'

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Tests the script that measures streaming: it runs, measures every line, and fails if a flight fails or a surface is
-# not closed.
+# Tests the script that measures streaming: it must measure every row, and fail if a flight fails or a surface is not
+# closed.
 source "$(dirname "$0")/common.sh"
 script=$SOURCE/tests/bench/streaming.sh
 expect 0 bash "$script" "$SGM" figures --quick
 out_has '\| line \| asked \| reached \| met \|'
-# Lines that need the benchmark's program are measured only if it is built.
+# Rows that need the program sgm_bench_crowds are measured only if it is built.
 [[ -x $(dirname "$SGM")/sgm_bench_crowds ]] && crowds=6 || crowds=0
 [[ $(grep -c 'not measured' <<<"$out") == $((6 - crowds)) ]] || failed "something was not measured"
 lines=figures/streaming.csv
@@ -14,7 +14,7 @@ lines=figures/streaming.csv
 [[ $(grep -c 'sgm_bench_crowds tests/bench/grammars/cave.sgm' $lines) == $crowds ]] || failed "$crowds lines of crowds expected"
 grep -q '^<svg .*</svg>$' figures/streaming.svg || failed "no chart"
 
-# One command that reports an open edge, and one that prints nothing.
+# Makes two fake commands: one reports an open edge, the other prints nothing.
 printf '#!/usr/bin/env bash\nsed "s/\\"open_edges\\": *0/\\"open_edges\\": 1/" "$REPORT"\n' >torn
 printf '#!/usr/bin/env bash\nexit 1\n' >mute
 chmod +x torn mute

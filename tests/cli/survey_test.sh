@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests sgm render --plan and --section: drawings that need no device.
+# Tests sgm render --plan and --section: survey drawings, which need no device.
 source "$(dirname "$0")/common.sh"
 lake=$SOURCE/tests/bench/grammars/lake.sgm
 
@@ -24,11 +24,12 @@ lacks() { ! grep -q "<path class=\"$1\"" "$2" || failed "$2 has a $1"; }
 
 expect 0 "$SGM" render rooms.sgm $all --out plan.svg --plan --json
 json 'j.width === 1600 && j.height === 1200 && j.cell === 0.5 && j.subject === "void" && !("section" in j)'
-# The lower room extends beyond the region in the north and the south.
+# The lower room extends beyond the region in the north and the south: the plan must show two leads (places where a
+# passage continues).
 json 'j.plan.leads === 2 && Math.abs(j.plan.area - (20 * 12 + 8 * 28)) < 20 && j.plan.water.join() === "3"'
 json 'Math.abs(j.plan.lowest + 11) < 0.1 && j.pixels_per_metre > 5'
 for class in wall water shore under open scale north text; do has $class plan.svg; done
-# An extension in capitals selects the same format.
+# An extension in capitals must select the same format.
 expect 0 "$SGM" render rooms.sgm $all --out PLAN.SVG --plan
 cmp -s plan.svg PLAN.SVG || failed "PLAN.SVG is another drawing than plan.svg"
 rm PLAN.SVG
@@ -36,7 +37,7 @@ for class in cut rock solid; do lacks $class plan.svg; done
 grep -q 'aria-label="rooms.sgm - plan"' plan.svg || failed "no title"
 grep -q 'aria-label="seed 0, ' plan.svg || failed "no seed"
 grep -q '<title>rooms.sgm, seed 0, ' plan.svg || failed "no title of the file"
-# The bytes do not depend on the number of threads.
+# The bytes must not depend on the number of threads.
 cp plan.svg before.svg
 expect 0 "$SGM" render rooms.sgm $all --out plan.svg --plan --threads 1
 cmp -s plan.svg before.svg || failed "one thread draws another plan"
@@ -53,22 +54,22 @@ for class in wall rock cut under water; do has $class both.svg; done
 grep -q "aria-label=\"A'\"" both.svg || failed "the line has no letters"
 grep -q 'aria-label="rooms.sgm - plan and long section"' both.svg || failed "the title does not say both"
 
-# As pixels: white paper, with dark lines on it.
+# As pixels, the drawing must be white with dark lines.
 expect 0 "$SGM" render rooms.sgm $all --out plan.png --plan --size 640x480
 read -r mean dark < <(node "$SOURCE/tests/cli/png.js" plan.png)
 ((mean > 600 && dark > 1000)) || failed "mean $mean, $dark dark pixels"
 read -r mean dark < <(node "$SOURCE/tests/cli/png.js" plan.png 0 0 30 30)
 ((mean == 765 && dark == 0)) || failed "the margin is not white"
 
-# A lake has dripstone and contours; of an endless world, the surroundings of the anchor nearest to the origin are
-# drawn.
+# A lake must have dripstone and contours; of an infinite world, the surroundings of the anchor nearest to the origin
+# must be drawn.
 expect 0 "$SGM" render "$lake" --out lake.svg --plan --section --seed 3 --region=-96,-40,-96:96,40,96 --json
 json 'j.plan.dripstones > 5 && j.plan.water.join() === "-5" && j.plan.contour_interval > 0 && j.plan.leads > 4'
 for class in contour hachure stalactite stalagmite shore ceiling_step room; do has $class lake.svg; done
 expect 0 "$SGM" render "$lake" --out nearest.svg --plan --seed 3
 expect 0 "$SGM" render "$lake" --out level.svg --plan --seed 3 --level 1 --json
 json 'j.level === 1 && j.cell === 1'
-# For an open-air world, the plan shows the buildings.
+# For an open-air world, the plan must show the buildings.
 expect 0 "$SGM" render "$SOURCE/tests/bench/grammars/building.sgm" --out house.svg --plan --section --json
 json 'j.subject === "solid" && j.plan.area > 100 && j.plan.highest > 15'
 for class in solid wall contour beyond; do has $class house.svg; done
@@ -79,7 +80,7 @@ expect 0 "$SGM" render level.sgm --out top.svg --plan --json
 json 'j.plan.contour_interval === 0 && Math.abs(j.plan.highest - 4) < 0.1'
 lacks contour top.svg
 
-# Refused calls give one message.
+# Refused calls must give one message.
 expect 1 "$SGM" render rooms.sgm --out wrong.svg --plan --region=1,14,1:4,18,4
 one_line
 err_has 'rock without a void; choose another --region'

@@ -37,7 +37,8 @@ TestedMachine& machine() {
   return one;
 }
 
-/// Whether there is a device. Meshes every instruction once, so that all pipelines exist afterwards.
+/// Returns true if there is a device. The first call meshes every instruction once, so that all pipelines exist
+/// afterwards.
 bool ready() {
   static const bool made = [] {
     if (!machine()) return false;
@@ -53,7 +54,7 @@ struct Seen {
   size_t triangles = 0, in_seams = 0;
 };
 
-/// Meshes the jobs with both backends, in batches of this size, and compares the meshes.
+/// Meshes the jobs with both backends, in batches of `batch` jobs, and compares the meshes.
 Seen compare(const std::vector<NamedJob>& named, size_t batch = 64) {
   Seen seen;
   for (size_t first = 0; first < named.size(); first += batch) {
@@ -71,7 +72,7 @@ Seen compare(const std::vector<NamedJob>& named, size_t batch = 64) {
   return seen;
 }
 
-/// Checks how many of the chunks since its construction the device has not meshed.
+/// Counts how many chunks the CPU has meshed in the device's place since this object was constructed.
 struct OnDevice {
   BackendCounters before = machine().device().counters();
   uint64_t byCpu() const { return machine().device().counters().on_cpu - before.on_cpu; }
@@ -135,7 +136,7 @@ TEST_CASE("sums alone are those over the meshes, in batches of their own and bes
 TEST_CASE("a prism of a thousand corners is meshed by the device, or by the CPU and counted") {
   if (!ready()) return;
   const OnDevice device;
-  std::vector<Int3> corners;  // a square outline with many steps along its sides
+  std::vector<Int3> corners;  // a square outline with many vertices along its sides
   constexpr int32_t kSide = 250, kStep = 40;
   for (int32_t side = 0; side < 4; ++side) {
     for (int32_t i = 0; i < kSide; ++i) {
@@ -182,7 +183,7 @@ TEST_CASE(
         kernel = b.kernelWeight(shape, 0.6f * r);
         sum.add(kernel);
       }
-      // A value that is also read elsewhere cannot be merged into the sum.
+      // A value that other instructions also read must not be merged into the sum.
       if (reader == 1) sum.add(kernel);
       if (reader == 2) sum.add(b.binary(Op::multiply, kernel, kernel));
       if (reader == 3) sum.add(b.binary(Op::maximum, t, b.constant(0.01f)));
@@ -208,7 +209,7 @@ TEST_CASE("batches of any size give the same bytes, programs of nothing among th
   for (uint32_t i = 0; i < 200; ++i) {
     NamedJob& one = jobs.emplace_back(randomJob(seedOfAll() + 5000 + i % 20, 0));
     if (i % 4 != 0) continue;
-    // Chunks that are entirely solid or void; every second one has seams to chunks that are not.
+    // Chunks that are entirely solid or void, some with seams to chunks that are not.
     one.job.field = shared(ProgramBuilder(512, i % 8 == 0, makeLabel(3, 1)).finish());
     one.job.seams = static_cast<uint8_t>(one.job.coarse ? one.job.seams : 0);
     one.job.signs = true;
@@ -268,7 +269,7 @@ TEST_CASE("the sample grammars give the scalar backend's bytes on the device") {
     const auto expected = by(*machine().scalar);
     const OnDevice device;
     const auto found = by(machine().device());
-    // No sample grammar exceeds the shader's limits, neither as a whole nor pruned to a chunk.
+    // Most chunks must be meshed on the device, since no sample grammar exceeds the shader's limits.
     CHECK(device.byCpu() < requests.size() / 2);
     size_t triangles = 0;
     for (size_t i = 0; i < requests.size(); ++i) {

@@ -8,7 +8,7 @@
 
 namespace sgm {
 
-/// Describes the first word in which two parts differ; empty if they are equal.
+/// Describes the first word in which two mesh parts differ; empty if they are equal.
 inline std::string differenceOf(const MeshPart& expected, const MeshPart& found) {
   const auto count = [](const char* what, size_t a, size_t b) {
     return std::to_string(b) + " " + what + " instead of " + std::to_string(a);
@@ -36,8 +36,8 @@ inline std::string differenceOf(const MeshPart& expected, const MeshPart& found)
   return expected.hash == found.hash ? std::string() : "the hash";
 }
 
-/// Whether all samples of a chunk have the same sign, according to the number of solid samples. The signs, if the mesh
-/// has them, must agree.
+/// True if all samples of a chunk have the same sign, by the number of solid samples; and if the mesh has signs, they
+/// agree.
 inline bool ofOneSign(const ChunkMesh& mesh) {
   constexpr uint64_t kRow = (uint64_t{1} << kChunkSamples) - 1;
   const bool solid = mesh.solid_samples > 0;
@@ -47,8 +47,8 @@ inline bool ofOneSign(const ChunkMesh& mesh) {
   return mesh.solid_samples == (solid ? uint32_t{kChunkCells} * kChunkCells * kChunkCells : 0u);
 }
 
-/// Describes the first difference between two meshes of one job; empty if they are equal. If one backend proves a chunk
-/// uniform, another may have sampled it and found a single sign: that is not a difference.
+/// Describes the first difference between two meshes of one job; empty if they are equal. It is no difference if one
+/// backend proves a chunk uniform, and the other samples it and finds a single sign.
 inline std::string differenceOf(const ChunkMesh& expected, const ChunkMesh& found) {
   if (std::string body = differenceOf(expected.body, found.body); !body.empty()) return "body: " + body;
   if (expected.seams.size() != found.seams.size()) return "the count of seams";

@@ -1,4 +1,4 @@
-// Tests that every evaluator gives the same bytes as the scalar evaluator.
+// Tests that every CPU evaluator gives the same bytes as the scalar evaluator.
 
 #include <cstdlib>
 #include <iostream>
@@ -19,12 +19,13 @@ uint32_t fromEnvironment(const char* name, uint32_t otherwise) {
   return text ? static_cast<uint32_t>(std::strtoul(text, nullptr, 10)) : otherwise;
 }
 uint32_t seedFromEnvironment() { return fromEnvironment("SGM_TEST_SEED", 20'260'101u); }
-// An emulated processor is some hundred times slower, so its environment sets smaller numbers.
+// Returns the number of rounds for each operation. An emulated processor is some hundred times slower, so its
+// environment sets a smaller number.
 uint32_t roundsOfEachOp() { return fromEnvironment("SGM_TEST_ROUNDS", 12); }
 uint32_t randomPrograms() { return fromEnvironment("SGM_TEST_PROGRAMS", sgm::rounds(150)); }
 
-// The evaluators that this machine can run, or only the one that SGM_TEST_INSTRUCTION_SET names; it is an error if that
-// one cannot run.
+// Returns the evaluators that this machine can run, or only the one that SGM_TEST_INSTRUCTION_SET names; it is an error
+// if this machine cannot run that one.
 std::vector<const FieldKernels*> compared() {
   std::vector<const FieldKernels*> kernels;
   const char* only = std::getenv("SGM_TEST_INSTRUCTION_SET");

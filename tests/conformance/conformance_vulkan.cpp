@@ -1,4 +1,5 @@
-// Tests the GLSL version of the operations: a compute shader evaluates random programs, and no bit may differ.
+// Tests the GLSL version of the operations: a compute shader evaluates random programs, and every bit must equal the
+// CPU's.
 
 #include <bit>
 #include <cstdlib>
@@ -19,7 +20,7 @@ namespace {
 
 bool required() { return std::getenv("SGM_REQUIRE_VULKAN") || std::getenv("SGM_REQUIRE_ALL"); }
 
-// The buffers of shaders/conformance/field.glsl, as words.
+// The contents of the buffers of shaders/conformance/field.glsl, as words.
 struct Packed {
   std::vector<uint32_t> instrs, params, groups, points, results;
 };
@@ -50,7 +51,7 @@ Packed pack(const ProgramView& program, const PointSet& points) {
     for (int32_t c : {points.x[i], points.y[i], points.z[i]}) p.points.push_back(static_cast<uint32_t>(c));
   }
   p.results.resize(8 * points.x.size());
-  // Vulkan does not allow empty storage buffers.
+  // Vulkan does not allow empty storage buffers, so add a word.
   for (std::vector<uint32_t>* words : {&p.instrs, &p.params, &p.groups})
     words->resize(std::max<size_t>(words->size(), 1));
   return p;
@@ -93,7 +94,7 @@ TEST_CASE("the GLSL of every op gives the scalar evaluator's bits") {
   Result<std::optional<VulkanCompute>> device = VulkanCompute::create(required(), true);
   INFO((device ? "" : device.error().message));
   REQUIRE(device);
-  if (!*device) return;  // the reason has been printed to stderr
+  if (!*device) return;  // no device: the reason has been printed to stderr
   const bool rte = (*device)->info().exact;
   std::cout << "device: " << (*device)->info().name << ", shader: "
             << (rte ? "field_rte.comp (RoundingModeRTE 32)" : "field.comp (no rounding can be demanded here)") << '\n';

@@ -1,4 +1,5 @@
-// Compiles the scalar evaluator as the arithmetic contract forbids: with contraction into fused operations.
+// The scalar evaluator, compiled in a way that the arithmetic contract forbids: with contraction into fused
+// multiply-add.
 
 #include <cstdint>
 #include <cstring>

@@ -1,5 +1,5 @@
-// Tests the conformance suite itself: a build with contraction must fail it, since otherwise the suite would prove
-// nothing.
+// Tests the conformance suite itself: it must fail for evaluators that were compiled with contraction, since otherwise
+// the suite would prove nothing.
 
 #include <iostream>
 

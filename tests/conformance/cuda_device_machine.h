@@ -13,7 +13,8 @@
 
 namespace sgm {
 
-/// If there is no GPU, the whole program is skipped with exit status 77, unless SGM_REQUIRE_CUDA forbids that.
+/// Opens the CUDA backend. If there is no GPU, the whole program is skipped with exit status 77, unless
+/// SGM_REQUIRE_CUDA is set.
 struct CudaDeviceMachine {
   std::unique_ptr<JobSystem> jobs = *makeThreadPool(2);
   std::unique_ptr<Backend> scalar = *makeCpuBackend("scalar", *jobs, std::pmr::get_default_resource(), {});
@@ -38,7 +39,7 @@ struct CudaDeviceMachine {
 
   static constexpr bool kAnyPrism = true;
   Backend& device() const { return *cuda; }
-  bool silent() const { return true; }  ///< always true: errors that the driver detects make a batch fail
+  bool silent() const { return true; }  ///< always true: errors that the driver detects already make a batch fail
 };
 
 using TestedMachine = CudaDeviceMachine;

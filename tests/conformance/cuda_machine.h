@@ -35,7 +35,7 @@ struct CudaMachine {
 
   static constexpr bool kAnyPrism = true;
   Backend& device() const { return *cuda; }
-  /// Always true: CUDA has no validation layer, and the driver's own checks need a GPU.
+  /// Always true: CUDA has no validation layer whose messages could be checked.
   bool silent() const { return true; }
 
   static cuda::HostDeviceOptions shuffled() {

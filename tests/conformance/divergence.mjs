@@ -1,13 +1,13 @@
-// Finds subgroup operations in SPIR-V that not all invocations of a subgroup reach, in shaders that rely on all of them
-// (shaders/mesher/tape.glsl). Software Vulkan hides such bugs: its lanes pass their values on even if they are masked.
-// Real hardware does not.
+// Finds collective operations (of subgroups and workgroups) in SPIR-V that not all invocations may reach, in shaders
+// that rely on all of them (shaders/mesher/tape.glsl). Software Vulkan hides such bugs: masked lanes still contribute
+// their values there. On real hardware they do not.
 //
-//   node divergence.mjs SPIRV-DIS FILE.spv...      status 3 if one is found, 1 if a file cannot be analysed
+//   node divergence.mjs SPIRV-DIS FILE.spv...      status 3 if it finds one, 1 if it cannot analyse a file
 //
-// A value diverges if invocations may see different values of it. Divergent are an invocation's number, what is
-// computed from it, and what is written after a divergent branch has separated the invocations; reading one place of a
-// buffer gives one value, if nobody writes there meanwhile. The analysis ignores call sites and the order of writes, so
-// it may report too much. It assumes that invocations reconverge where SPIR-V's structured constructs end.
+// A value is divergent if invocations may have different values of it: an invocation's index, a value computed from a
+// divergent one, and a variable written after a divergent branch. Reading a buffer at a uniform address gives a uniform
+// value, unless invocations write there meanwhile. The analysis ignores call sites and the order of writes, so it may
+// report too much. It assumes that invocations reconverge where SPIR-V's structured constructs end.
 import { execFileSync } from 'node:child_process';
 import { basename } from 'node:path';
 
@@ -17,13 +17,16 @@ const BUFFERS = ['StorageBuffer', 'Uniform', 'PushConstant'];
 const CHOICES = ['OpBranchConditional', 'OpSwitch'];
 const BRANCHES = ['OpBranch', ...CHOICES];
 const LEAVING = ['OpReturn', 'OpReturnValue', 'OpKill', 'OpTerminateInvocation'];
-// Operations that return the same value to all invocations of a subgroup; reductions do so, too.
+// Operations that return the same value to all invocations of a subgroup; reductions also do.
 const SHARED = /^OpGroupNonUniform(All|Any|AllEqual|BroadcastFirst|Ballot|BallotFindLSB|BallotFindMSB)$/;
 const isAccess = (op) => op === 'OpAccessChain' || op === 'OpInBoundsAccessChain';
 const isSubgroup = (op) => op.startsWith('OpGroupNonUniform');
 const isBarrier = (op) => op === 'OpControlBarrier';
 
-/** Parses a module's text into functions with their blocks of instructions, and everything outside of functions. */
+/**
+ * Parses the disassembly of a module into its functions, each with its blocks of instructions, and everything outside
+ * of functions.
+ */
 function parse(text) {
   const module = { names: new Map(), builtins: new Map(), globals: new Map(), functions: new Map() };
   let current = null;
@@ -50,7 +53,7 @@ const nextOf = (blocks, label) => {
   return BRANCHES.includes(op) ? operands.filter((id) => blocks.has(id)) : [];
 };
 
-/** The blocks reachable from `label` without passing one of `stops`. */
+/** Returns the blocks reachable from `label` without passing a block of `stops`. */
 function following(blocks, label, stops) {
   const found = new Set();
   const open = [label];
@@ -64,7 +67,7 @@ function following(blocks, label, stops) {
   return found;
 }
 
-/** The loops by their headers: their blocks, their merge blocks, and their continue targets. */
+/** Returns the loops of a function: for each header, the loop's blocks, its merge block, and its continue target. */
 function loopsOf(blocks) {
   const loops = [];
   for (const [header, instructions] of blocks) {
@@ -75,8 +78,9 @@ function loopsOf(blocks) {
 }
 
 /**
- * The blocks that run separately after a divergent branch: up to where its paths merge; if a path leaves or continues a
- * loop, the whole loop; if one returns from the function, everything that may follow.
+ * Returns the blocks that invocations may execute separately after a divergent branch: those up to where its paths
+ * merge. If a path leaves or continues a loop, these are all blocks of the loop; if a path returns from the function,
+ * all blocks that may follow.
  */
 function parted(blocks, loops, label) {
   const around = loops.filter(({ inside }) => inside.has(label));
@@ -93,9 +97,9 @@ function parted(blocks, loops, label) {
   return all;
 }
 
-/** The blocks that not all invocations of a subgroup, or of a workgroup, may reach together. */
+/** Returns the blocks that the invocations of a subgroup (or of a workgroup) may not all reach together. */
 function findDivergent(module, ofWorkgroup) {
-  const values = new Set(); // also holds variables, by their ids
+  const values = new Set(); // ids of divergent values, and of variables that contain such values
   const blocks = new Set();
   const calledApart = new Set();
   const roots = new Map();
@@ -156,7 +160,9 @@ function findDivergent(module, ofWorkgroup) {
   return blocks;
 }
 
-/** One sentence for each function that executes a collective operation where its invocations may have diverged. */
+/**
+ * Returns one sentence for each function that executes a collective operation where its invocations may have diverged.
+ */
 function findings(text) {
   const module = parse(text);
   const found = new Set();

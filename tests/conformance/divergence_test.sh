@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Tests that divergence.mjs finds the bugs in small shaders, and none in the library's shaders.
+# Tests that divergence.mjs finds the bugs in small test shaders, and that it finds none in the library's shaders.
 #   divergence_test.sh SPIRV-DIS GLSLANG FOLDER-OF-SPIRV
 set -euo pipefail
 here=$(dirname "$0") dis=$1 glslang=$2 shaders=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# check EXPECTED-STATUS NAME BODY-OF-MAIN [FUNCTIONS]: compiles this shader and runs divergence.mjs on it.
+# check EXPECTED-STATUS NAME BODY-OF-MAIN [FUNCTIONS]: compiles a shader with this main function and runs divergence.mjs
+# on it.
 check() {
   cat >"$work/$2.comp" <<END
 #version 450

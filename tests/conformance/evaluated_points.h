@@ -1,5 +1,5 @@
 #pragma once
-// Points to ask programs at, and what evaluators return there.
+// Points at which programs are evaluated, and the results of evaluators there.
 
 #include <random>
 #include <vector>
@@ -14,10 +14,10 @@ struct PointSet {
 };
 
 PointSet randomPoints(std::mt19937& random, Int3 centre, int32_t extent, size_t count);
-/// Every point of a grid of `step` units in the box.
+/// Returns every point of the box on a grid with `step` units between points.
 PointSet gridPoints(const IntBox& box, int32_t step);
 
-/// All that an evaluator returns, as words, for comparison bit by bit.
+/// All results of an evaluator, as words that are compared bit by bit.
 struct Evaluated {
   std::vector<int32_t> q;
   std::vector<float> value, gx, gy, gz;
@@ -26,10 +26,11 @@ struct Evaluated {
 };
 Evaluated evaluate(const FieldKernels& kernels, const ProgramView& program, const Points& points);
 
-/// Whether a value is other than the empty or solid domain's: else a comparison of such programs proves nothing.
+/// True if any value differs from that of an empty or solid domain. Otherwise, comparing the results would prove
+/// nothing.
 bool shows(const Evaluated& e);
 
-/// The number of words that differ.
+/// Returns the number of words that differ.
 size_t differentBits(const Evaluated& a, const Evaluated& b);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
-// Tests that no bit depends on the treatment of denormals (arithmetic contract, runtime/README.md): threads of games
-// often flush them to zero, and Vulkan devices may do so without reporting it.
+// Tests that no bit of a result depends on the treatment of denormals (arithmetic contract, runtime/README.md): threads
+// of games often flush them to zero, and Vulkan devices may do so without reporting it.
 
 #include <xmmintrin.h>
 
@@ -19,8 +19,8 @@ bool flushes() {
   return product == 0.0f;
 }
 
-// Random points, and points on the axes through each primitive's centre: only there the tiny entries of a frame's rows
-// matter.
+// Returns random points, and points on the axes through each primitive's centre: only on the axes do the tiny entries
+// of a frame's rows affect results.
 PointSet pointsFor(const FieldProgram& program, std::mt19937& random, Int3 centre) {
   PointSet points = randomPoints(random, centre, 20'000, 100);
   size_t primitives = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Jobs with every operation and with random programs, near the origin and near the world's end, on which backends are
-// compared.
+// Jobs on which backends are compared: with every operation and with random programs, near the origin and near the
+// world's ends.
 
 #include <memory>
 #include <string>
@@ -24,8 +24,8 @@ inline std::shared_ptr<const FieldProgram> shared(FieldProgram program) {
   return std::make_shared<FieldProgram>(std::move(program));
 }
 
-/// The chunk with this cell size that contains the place in its middle, aligned to the grid of the next coarser level
-/// too.
+/// Returns the grid of a chunk with this cell size and `place` in its middle, aligned to the grid of the next coarser
+/// level.
 inline ChunkGrid gridAround(Int3 place, int32_t cell) {
   ChunkGrid grid{{}, cell, 0};
   const int64_t step = 2 * int64_t{cell};
@@ -36,8 +36,8 @@ inline ChunkGrid gridAround(Int3 place, int32_t cell) {
   return grid;
 }
 
-/// A program with a layer that adds and cuts, and a smooth layer above it, which programs of a single operation do not
-/// contain.
+/// Makes a program with a layer that adds and cuts, and a smooth layer above it; programs of a single operation have
+/// neither.
 inline FieldProgram layered(Int3 centre) {
   constexpr float kMetre = kUnitsPerMetre;
   ProgramBuilder b(512, false, makeLabel(1, 0));
@@ -52,7 +52,7 @@ inline FieldProgram layered(Int3 centre) {
   return b.finish();
 }
 
-/// For every operation, `often` jobs with one chunk each, at places and cell sizes that differ from job to job.
+/// Makes `often` jobs for every operation. Each job is one chunk; places and cell sizes differ from job to job.
 inline std::vector<NamedJob> jobsOfEveryOp(uint32_t seed, uint32_t often) {
   std::vector<NamedJob> jobs;
   for (uint32_t round = 0; round < often; ++round) {
@@ -75,7 +75,8 @@ inline std::vector<NamedJob> jobsOfEveryOp(uint32_t seed, uint32_t often) {
   return jobs;
 }
 
-/// A job with a random program, with seams on random faces to another random program, and with random request flags.
+/// Makes a job with a random program, with seams on random faces to a second random program, and with random request
+/// flags.
 inline NamedJob randomJob(uint32_t seed, int depth) {
   std::mt19937 random(seed);
   RandomProgramOptions options;

@@ -17,8 +17,8 @@ uint32_t randomLabel(std::mt19937& random) {
   return makeLabel(material, tag);
 }
 
-// Every random draw is a statement of its own, an initialiser in braces, or the only draw among a call's arguments: the
-// compiler chooses the order in which arguments are evaluated, and a seed must give the same program everywhere.
+// Every random draw is a statement of its own, an initialiser in braces, or the only draw among a call's arguments: a
+// seed must give the same program everywhere, and the order in which arguments are evaluated depends on the compiler.
 class Generator {
  public:
   Generator(std::mt19937& random, Int3 centre, int32_t extent, int32_t finest_cell, bool solid, uint32_t domain,
@@ -39,7 +39,7 @@ class Generator {
     };
     return {axis(centre_.x), axis(centre_.y), axis(centre_.z)};
   }
-  // A place near the limits of the coordinates, on some axes or on all.
+  // Returns a position near the limits of the coordinate range, on some axes or on all.
   Int3 farPlace() {
     auto axis = [&](int32_t c) {
       const int where = pick(6);
@@ -53,11 +53,11 @@ class Generator {
   float size() { return between(0.05, 0.5) * static_cast<float>(extent_); }
 
   Frame frame(double spread = 1) {
-    // The rows of a random unit quaternion's matrix; sometimes the identity.
+    // f.rows becomes the matrix of a random unit quaternion, or sometimes stays the identity.
     Frame f;
     f.origin = place(spread);
     if (odd_.huge_and_tiny && pick(3) == 0) {
-      // One entry as after a rotation by nearly zero: its products are denormals.
+      // Set one entry to a tiny value, as a rotation by nearly zero does: its products are denormals.
       static constexpr float kNearlyNone[] = {1e-17f, -1e-20f, 1e-24f, 3e-39f};
       const int entry = 1 + 4 * pick(2) + pick(3);
       f.rows[static_cast<size_t>(entry)] = kNearlyNone[pick(4)];
@@ -80,7 +80,7 @@ class Generator {
   }
 
   std::vector<Int3> polygon() {
-    // A star-shaped, hence simple polygon, counter-clockwise seen from +y: z decreases while the angle from +x
+    // Make a star-shaped (and so simple) polygon, counter-clockwise seen from +y: z decreases while the angle from +x
     // increases.
     const int n = 3 + pick(6);
     std::vector<Int3> corners;
@@ -101,7 +101,7 @@ class Generator {
       const Value distance = primitive(Op::sphere, spread);
       return builder_.kernelWeight(distance, size());
     }
-    // Shapes without a frame.
+    // These shapes have no frame.
     if (op == Op::sphere || op == Op::blob || op == Op::capsule) {
       const Int3 at = place(spread);
       const float a[4] = {size(), size(), size(), size()};
@@ -139,7 +139,8 @@ class Generator {
     }
   }
 
-  // A lattice of samples in whole 1024ths, some huge: steeper than any distance field, or with values that mean "far".
+  // Makes a lattice of samples, all multiples of 1/1024. Some are huge: steeper than any distance field, or values that
+  // mean "far".
   Value lattice(Int3 near) {
     SampleLattice at;
     at.spacing = 1 + pick(extent_ / 2);
@@ -153,7 +154,7 @@ class Generator {
     const double largest = odd_.huge_and_tiny && pick(3) == 0 ? 1e12 : extent_;
     for (float& sample : samples) sample = std::floor(between(-largest, largest) * 1024.0f) / 1024.0f;
     const float limit = pick(3) == 0 ? size() : kFarSample;
-    // One far value next to near ones, with no bound of the slope given.
+    // Without a bound on the slope, sometimes put one "far" value next to normal ones.
     const int sentinel = pick(static_cast<int>(samples.size()));
     if (limit == kFarSample && pick(2) == 0) samples[static_cast<size_t>(sentinel)] = kLargestSample;
     return builder_.lattice(at, samples, limit, label());
@@ -164,11 +165,12 @@ class Generator {
                                   Op::capsule,     Op::torus,     Op::ellipsoid, Op::superquadric,
                                   Op::power_morph, Op::halfspace, Op::prism,     Op::lattice};
     const Op op = kAll[pick(static_cast<int>(std::size(kAll)))];
-    // Some operands lie far outside and have large positive values, which wrong pruning would choose.
+    // Some operands lie far outside, where their values are large and positive: wrong pruning would choose these.
     return primitive(op, pick(5) == 0 ? 6.0 : 1.0);
   }
 
-  // Nested squares: beyond 1e18 in metres, or below 1e-30 where the factor is small, with gradients to match.
+  // Makes nested squares, whose values (in metres) exceed 1e18, or are below 1e-30 if the factor is small, with
+  // correspondingly extreme gradients.
   Value tower() {
     const Frame f = frame();
     Value v = builder_.coordinate(f.origin, f.rows[0], f.rows[1], f.rows[2]);
@@ -333,7 +335,7 @@ FieldProgram randomProgram(std::mt19937& random, const RandomProgramOptions& o) 
     for (int i = 0; i < o.groups; ++i) {
       const Value root = g.shape(g.pick(o.depth + 1));
       const IntBox influence = o.whole_influence ? IntBox::everything() : g.influence();
-      // A group that needs too many registers is left out by the builder: another test checks its error.
+      // The builder rejects a group that needs too many registers; another test checks that error, so ignore it here.
       (void)g.builder().group(root, influence, static_cast<uint32_t>(layer), i >= adds);
     }
   }
@@ -348,7 +350,7 @@ FieldProgram randomProgram(std::mt19937& random, const RandomProgramOptions& o) 
 }
 
 FieldProgram programOf(Op op, std::mt19937& random, Int3 centre, Oddities odd) {
-  // The domain is never solid: its minimum with the op would hide the op's value.
+  // The domain is void, because its minimum with the op would hide the op's value if it were solid.
   const uint32_t domain = randomLabel(random);
   Generator g(random, centre, 16 * 1024, 512, false, domain, odd);
   ProgramBuilder& b = g.builder();

@@ -7,7 +7,7 @@
 namespace sgm {
 namespace {
 
-constexpr size_t kMaxPushBytes = 128;  // the minimum that Vulkan guarantees
+constexpr size_t kMaxPushBytes = 128;  // maximum size of push constants in bytes that every Vulkan device supports
 
 Result<void> checkBuffers(const VulkanDevice& device, std::span<const ComputeBuffer> buffers) {
   for (const ComputeBuffer& buffer : buffers) {

@@ -16,25 +16,26 @@
 
 namespace sgm {
 
-/// Software devices are accepted too. All tests with it end with CHECK(machine.silent()).
+/// Makes both backends; the Vulkan device may be a software device. Every test that uses it ends with
+/// CHECK(machine.silent()).
 struct VulkanMachine {
   std::shared_ptr<vulkan::MessageLog> log = std::make_shared<vulkan::MessageLog>();
   std::unique_ptr<JobSystem> jobs = *makeThreadPool(2);
   std::unique_ptr<Backend> scalar = *makeCpuBackend("scalar", *jobs, std::pmr::get_default_resource(), {});
-  std::unique_ptr<Backend> vulkan;  ///< null, after printing the reason, if this machine has no usable device
+  std::unique_ptr<Backend> vulkan;  ///< null if this machine has no usable device; the reason has then been printed
 
-  std::vector<std::string> warnings;  ///< warnings of the Vulkan backend
+  std::vector<std::string> warnings;  ///< warnings that the Vulkan backend has given
 
-  /// A shader's window holds few corners, so not every prism can be meshed on the device.
+  /// False: prisms with many corners exceed a shader's limit, so the CPU meshes them.
   static constexpr bool kAnyPrism = false;
   Backend& device() const { return *vulkan; }
 
   using Open = std::function<Result<std::unique_ptr<vulkan::Device>>()>;
 
-  /// open: opens the device to use; null: a device of our own, which the validation layer checks.
+  /// open: opens the device to use; null: opens a new device, whose calls the validation layer checks.
   explicit VulkanMachine(const BatchRoom& room = {}, const Open& open = nullptr)
       : VulkanMachine(optionsOf(room, open)) {}
-  /// If options.open is null, opens a device of our own, which the validation layer checks.
+  /// If options.open is null, opens a new device, whose calls the validation layer checks.
   explicit VulkanMachine(VulkanBackendOptions options) {
     options.warn = [this](const std::string& text) { warnings.push_back(text); };
     if (!options.open) options.open = [log_of_all = log] { return vulkan::Device::open(watched(log_of_all)); };
@@ -70,7 +71,7 @@ struct VulkanMachine {
     return device;
   }
 
-  /// Whether the validation layer has reported nothing.
+  /// True if the validation layer has reported nothing.
   bool silent() const { return silent(log->texts()); }
   static bool silent(const std::vector<std::string>& texts) {
     for (const std::string& text : texts) UNSCOPED_INFO(text);

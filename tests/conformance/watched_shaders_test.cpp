@@ -1,5 +1,5 @@
-// Runs the mesher's shaders under GPU-assisted validation, which checks each of their memory accesses: none may exceed
-// its buffer. Another test shows that the layer would report such an access (tests/unit/vulkan).
+// Runs the mesher's shaders under GPU-assisted validation, which checks each memory access: none may exceed its buffer.
+// Another test shows that the layer does report such accesses (tests/unit/vulkan).
 
 #include "catch.h"
 #include "compare_meshes.h"
@@ -10,8 +10,8 @@ using namespace sgm;
 
 namespace {
 
-/// Jobs with two layers of spheres that add, cut and blend, some with seams to others. They use few kinds of
-/// instructions, because each is compiled with its checks.
+/// Makes jobs with two layers of spheres that add, cut and blend, some with seams to other programs. They use few kinds
+/// of instructions, because each kind must be compiled with the validation's checks.
 std::vector<ChunkJob> layeredBalls(uint32_t seed, size_t count) {
   std::mt19937 random(seed);
   std::vector<ChunkJob> jobs;
@@ -42,9 +42,10 @@ TEST_CASE("no shader reaches beyond its buffers, in batches that find room and i
   const auto log = std::make_shared<vulkan::MessageLog>();
   VulkanBackendOptions options;
   options.open = [log] { return vulkan::Device::open(VulkanMachine::watched(log, vulkan::Validation::gpu_assisted)); };
-  // The validation layer checks bounds only of whole VkBuffers, so each of our buffers gets its own.
+  // GPU-assisted validation checks the bounds of whole VkBuffers only, so give each of our buffers a VkBuffer of its
+  // own.
   options.memory.first_block = options.memory.largest_block = 256;
-  // A batch has room for eight chunks at least: enough for four of these balls, but not for twenty.
+  // The output has room for at least eight chunks: enough for a batch of 4 of these jobs, but not for a batch of 20.
   options.room = {900, 5400, 900};
   const VulkanMachine machine(options);
   if (!machine) return;

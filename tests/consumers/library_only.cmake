@@ -1,7 +1,8 @@
 # Configures the library alone, with no other packages available than those it needs: cmake -DSOURCE=... -DBINARY=...
 # "-DOPTIONS=..." -P library_only.cmake
 #
-# Packages of the rest of the tree are hidden; those found by path (find_path) are checked afterwards.
+# Hides the packages that the rest of the tree needs from find_package; checks afterwards that none was found by
+# find_path.
 file(REMOVE_RECURSE ${BINARY})
 set(hidden)
 foreach(package Boost CGAL CLI11 Catch2 PkgConfig SQLite3 Vulkan fmt glm meshoptimizer nlohmann_json prometheus-cpp)

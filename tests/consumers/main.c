@@ -1,4 +1,4 @@
-/* A consumer in C: compiles a grammar, meshes a ball and looks at the result. */
+/* A consumer in C: compiles a grammar, meshes a ball and checks the result. */
 #include <sgm/sgm.h>
 #include <stdio.h>
 
@@ -35,7 +35,7 @@ int main(void) {
   if (sgm_surface_from_region(field, &region, &surface, &error)) return fail("surface", &error);
   if (sgm_surface_get_view(surface, &view, &error)) return fail("view", &error);
   printf("%lu vertices, %lu triangles\n", (unsigned long)view.vertex_count, (unsigned long)(view.index_count / 3));
-  /* A closed surface without holes: V - F/2 = 2. */
+  /* Euler's formula for a closed surface of genus 0: V - F/2 = 2. */
   if (view.vertex_count == 0 || 2 * view.vertex_count - view.index_count / 3 != 4) return 1;
 
   sgm_surface_destroy(surface);

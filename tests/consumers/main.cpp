@@ -1,4 +1,4 @@
-// A consumer in C++: includes the header as C++, and receives an error as a value.
+// A consumer in C++: includes the header as C++, and checks an error that a call returns.
 #include <sgm/sgm.h>
 
 #include <cstdio>

@@ -15,12 +15,12 @@ list(FILTER scripts EXCLUDE REGEX "^tests/consumers/.*/")
 foreach(script IN LISTS scripts)
   file(READ ${BUILD}/${script} text)
   string(REPLACE "${BUILD}" "${tree}" text "${text}")
-  string(REPLACE "OLD_RPATH \"${tree}" "OLD_RPATH \"${BUILD}" text "${text}")  # as in the built files
+  string(REPLACE "OLD_RPATH \"${tree}" "OLD_RPATH \"${BUILD}" text "${text}")  # the built files have this RPATH
   file(CONFIGURE OUTPUT ${tree}/${script} CONTENT "@text@" @ONLY)
 endforeach()
 
-# install_with([PARTS ...] [ARGS ...]): installs the copied tree with these parts; sets case, status, said and
-# installed.
+# install_with([PARTS ...] [ARGS ...]): installs the copied build tree, in which only these parts are built. Sets the
+# variables case, status, said (the output) and installed (the files).
 function(install_with)
   cmake_parse_arguments(ARG "" "" "PARTS;ARGS" ${ARGN})
   file(REMOVE_RECURSE ${WORK}/prefix)
@@ -49,7 +49,7 @@ macro(require what)
     message(SEND_ERROR "${case}: ${what}\nstatus ${status}\ninstalled ${installed}\nsaid ${said}")
   endif()
 endmacro()
-# The folders of the prefix differ by system: lib, lib64, lib/x86_64-linux-gnu.
+# Library folders below the prefix differ by system: lib, lib64, lib/x86_64-linux-gnu.
 set(of_library " include/sgm/sgm[.]h " "/libsgm[.](so|a) " "/cmake/sgm/sgmConfig[.]cmake " "/cmake/sgm/sgmTargets[.]cmake "
   "/pkgconfig/sgm[.]pc ")
 set(of_service " include/sgm/sgm_service[.]h " "/libsgm_service[.](so|a) " "/cmake/sgm/sgmServiceTargets[.]cmake "
@@ -80,7 +80,7 @@ if(COMMAND)
   install_with(PARTS COMMAND ARGS --component command)
   require("installs" status EQUAL 0)
   require_parts(command)
-  # The parts that samples/demo.sh builds.
+  # Tests the parts that samples/demo.sh builds.
   install_with(PARTS COMMAND LIBRARY)
   require("installs" status EQUAL 0 AND NOT said MATCHES "(library|command) is not built")
   require_parts(command library)

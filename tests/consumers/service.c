@@ -1,4 +1,4 @@
-/* A consumer in C of the metrics service: starts it, and asks it over a socket whether it lives. */
+/* A consumer in C of the metrics service: starts the service, and requests /healthz over a socket. */
 #include <arpa/inet.h>
 #include <sgm/sgm_service.h>
 #include <stdio.h>
@@ -6,7 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-/* Whether the answer to GET /healthz on this port is a 200. */
+/* Returns 1 if GET /healthz on this port is answered with status 200, otherwise 0. */
 static int lives(uint16_t port) {
   const char request[] = "GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
   char answer[64] = {0};

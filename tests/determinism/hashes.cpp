@@ -36,7 +36,8 @@ void check(sgm_result result, const sgm_error& error, const Piece& piece) {
                            ": " + sgm_result_name(result) + ": " + error.message);
 }
 
-// The instruction set that has meshed the pieces: sets that this processor lacks are not compared.
+// Returns the name of the instruction set that has meshed the pieces. Sets that this processor does not support are not
+// tested.
 std::string instructionSet() {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime_desc with = SGM_RUNTIME_DESC_INIT;

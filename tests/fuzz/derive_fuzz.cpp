@@ -1,5 +1,6 @@
-// Compiles and derives grammars of arbitrary text: derivation must end within its limits without undefined behaviour,
-// and the proven reach must hold. The first two bytes choose the seed and the grammar cell; the rest is the text.
+// Compiles and derives grammars from arbitrary text: derivation must end within its limits without undefined behaviour,
+// and no shape may exceed the bounds that the compiler has proven. The first two bytes of the input select the seed and
+// the grammar cell; the rest is the text.
 
 #include <cstdint>
 #include <cstdio>
@@ -11,7 +12,7 @@
 
 namespace {
 
-/// A lower layer with rock above the height 0.
+/// A lower layer that is solid above the height 0.
 class Ceiling : public sgm::LowerLayers {
  public:
   bool solid(uint32_t, sgm::Int3 p) const override { return p.y >= 0; }

@@ -1,5 +1,5 @@
-// Reads arbitrary bytes as an asset: it must be read, closed, fitted and divided into convex pieces, or rejected with a
-// message.
+// Reads arbitrary bytes as a GLB asset: it must be read, closed, fitted and divided into convex pieces, or rejected
+// with a message.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const Result<TriangleMesh> mesh = readGlb(std::as_bytes(std::span(data, size)));
   if (!saysWhy(mesh)) return 0;
   const Result<Polyhedron> solid = makePolyhedron(*mesh);
-  // Large meshes take too long for so many runs.
+  // Skip large meshes, which take too long for so many runs.
   if (!saysWhy(solid) || solid->triangles.size() > 200) return 0;
   const Point own = solid->high - solid->low;
   const FitZone zones[] = {{0, false, 0.25 * own.x, 0.5 * own.x}, {1, true, 0.25 * own.y, 0.75 * own.y}};

@@ -1,5 +1,5 @@
-// Parses arbitrary bytes as a client's request, in pieces whose sizes the first four bytes choose: the result must be a
-// request or a rejection with a status, and the same for one piece, these pieces, and single bytes.
+// Parses arbitrary bytes as an HTTP request, in pieces whose sizes the first four bytes determine. The result must be a
+// request or a rejection with a status, and the same whether the bytes arrive at once, in these pieces, or one by one.
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Writes small requests as first inputs of http_fuzz: four bytes that determine how the rest is divided into pieces,
-# then the client's bytes.
+# Writes small requests as initial inputs of http_fuzz: four bytes that determine how the request is divided into
+# pieces, then the bytes of the request.
 #
 #   http_seeds.sh FOLDER
 set -euo pipefail

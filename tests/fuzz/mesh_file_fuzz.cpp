@@ -1,5 +1,5 @@
-// Reads arbitrary bytes as a mesh file, in the format that the first byte chooses: it must be read, or rejected with a
-// message.
+// Reads arbitrary bytes as a mesh file, in the format that the first byte selects: the file must be read, or rejected
+// with a message.
 
 #include <cmath>
 #include <cstddef>
@@ -32,8 +32,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;
   const auto bytes = std::as_bytes(std::span(data + 1, size - 1));
   (void)meshFileKind(bytes);
-  // The input's first byte selects the format by a letter, so that first inputs can be written by hand: glb, obj, ply,
-  // stl.
+  // The input's first byte selects the format by a letter (glb, obj, ply, stl), so that initial inputs can be written
+  // by hand.
   constexpr char kLetters[] = {'g', 'o', 'p', 's'};
   size_t kind = data[0] % 4;
   for (size_t i = 0; i < 4; ++i)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes small mesh files as first inputs of mesh_file_fuzz: a letter for the format, then the file.
+# Writes small mesh files as initial inputs of mesh_file_fuzz: a letter for the format, then the file.
 #
 #   mesh_seeds.sh FOLDER GLB...
 set -euo pipefail

@@ -1,5 +1,5 @@
-// Compiles arbitrary text: the compiler must end within its limits without undefined behaviour, and printing a parsed
-// text must be a fixed point that keeps the meaning.
+// Compiles arbitrary text: the compiler must end within its limits without undefined behaviour. Printing the parsed
+// text must keep its meaning, and printing the result again must not change it.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace {
 
-/// Every import resolves to the text itself, so that cycles and the limits of depth and number are reached.
+/// Resolves every import to the importing text itself, so that cycles and the limits on depth and number are reached.
 class SameText : public sgm::ImportResolver {
  public:
   explicit SameText(std::string_view text) : text_(text) {}
   sgm::Result<std::string> read(std::string_view path, size_t limit) override {
-    // Checks the sandbox: no import path may leave the folder, whatever the text says.
+    // No import path may leave the folder, whatever the text says.
     for (size_t from = 0; from <= path.size();) {
       const size_t end = std::min(path.find('/', from), path.size());
       const std::string_view part = path.substr(from, end - from);
@@ -70,8 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   SameText::require(*twice.text == *once.text, "printing is no fixed point");
   if (!result.program) return 0;
   const sgm::CompileResult again = sgm::compileGrammar(*once.text, "fuzz.sgm", options);
-  // An import reads the original text of its file, which a printed one would replace; so only programs without imports
-  // are compared.
+  // Compare only programs without imports: every import resolves to the original text, not the printed one.
   if (result.files.size() == 1)
     SameText::require(again.program && again.program->hash == result.program->hash, "printing changed the meaning");
   return 0;

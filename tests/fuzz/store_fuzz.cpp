@@ -1,5 +1,5 @@
-// Reads files of a store with arbitrary contents: each file is first made correctly, then changed according to the
-// input, and its checksums are corrected, so that readers do not stop at the checksums.
+// Reads files of a store with arbitrary damage: each file is first made correctly, then changed according to the input,
+// and its checksums are corrected, so that readers do not stop at the checksums.
 
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr size_t kMaxChanges = 12;
 
-/// Reads numbers from the input; 0 after its end.
+/// Reads numbers from the fuzzer's input; returns 0 after its end.
 struct Input {
   const uint8_t* at;
   size_t left;
@@ -30,7 +30,7 @@ struct Input {
   }
 };
 
-/// Changes bytes from `first` on, and may truncate the bytes.
+/// Changes bytes after the first `first` ones, and may truncate the file, as the input says.
 void change(Input& input, std::vector<std::byte>& bytes, size_t first) {
   for (size_t i = 0; i < kMaxChanges && input.left > 0 && first < bytes.size(); ++i) {
     const size_t at = first + input.next(3) % (bytes.size() - first);
@@ -110,7 +110,7 @@ struct InMemory final : store::StoredFile {
   }
 };
 
-/// An index with two levels, in the format of its file.
+/// Returns the bytes of a correct index file with two levels.
 std::vector<std::byte> writtenIndex() {
   std::string name = (std::filesystem::temp_directory_path() / "sgm_fuzz_XXXXXX").string();
   require(mkdtemp(name.data()) != nullptr);
@@ -129,7 +129,7 @@ std::vector<std::byte> writtenIndex() {
   return {bytes.begin(), bytes.end()};
 }
 
-/// Corrects the checksums of the file's end and directory, whatever they contain.
+/// Corrects the checksums in the file's trailer and directory, so that damaged contents still pass them.
 void mendChecksums(std::vector<std::byte>& bytes) {
   if (bytes.size() < store::kIndexEnd) return;
   const auto put = [&](size_t at, uint64_t number) { std::memcpy(bytes.data() + at, &number, sizeof number); };
@@ -176,7 +176,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     default: {
       InMemory file;
       file.all = index;
-      // Most changes hit the numbers at the end of the file.
+      // Three of four inputs change only the last 400 bytes, where the numbers are that readers must check.
       change(input, file.all, input.next(1) % 4 == 0 ? 0 : file.all.size() - 400);
       mendChecksums(file.all);
       readWorld(file);

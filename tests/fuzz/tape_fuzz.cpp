@@ -1,5 +1,5 @@
-// Compiles field programs from derived cells with arbitrary contents: any contents, of any depth and at any place, must
-// compile or be rejected with an error; a pruned program and every instruction set must give the same bits.
+// Compiles field programs from derived cells with arbitrary contents. Contents of any depth and at any place must
+// compile or be rejected with an error; pruned programs and all instruction sets must give the same bits.
 
 #include <cstdint>
 #include <cstdio>
@@ -28,10 +28,10 @@ class Bytes {
   bool left() const { return at_ < size_; }
   uint32_t byte() { return at_ < size_ ? data_[at_++] : 0u; }
   uint32_t below(uint32_t n) { return (byte() << 8 | byte()) % n; }
-  /// A number from 0.0 to 1.0.
+  /// Returns a number from 0.0 to 1.0.
   float part() { return static_cast<float>(byte() << 8 | byte()) / 65535.0f; }
   float length(float least, float most) { return least + (most - least) * part(); }
-  /// A coordinate, mostly near `near`, sometimes at an end of the world.
+  /// Returns a coordinate, mostly near `near`, sometimes at an end of the world.
   int32_t place(int32_t near) {
     const uint32_t kind = byte();
     if (kind == 255) return std::numeric_limits<int32_t>::max();

@@ -30,8 +30,8 @@ bool collinear(const Soup& soup, const Corners& t) {
   return CGAL::collinear(soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]);
 }
 
-/// Whether two triangles of a soup intersect, by the rule of CGAL for two faces of a mesh (do_faces_intersect), applied
-/// to point numbers: before version 6.0, CGAL::Polygon_mesh_processing has no such function for soups.
+/// True if two triangles of a soup intersect, by CGAL's rule for two faces of a mesh (do_faces_intersect), applied to
+/// point indices. Needed because CGAL::Polygon_mesh_processing has no such function for soups before version 6.0.
 bool meet(const Soup& soup, const Corners& a, const Corners& b) {
   const auto point = [&](std::size_t v) { return soup.points[v]; };
   const auto has = [](const Corners& t, std::size_t v) { return std::find(t.begin(), t.end(), v) != t.end(); };
@@ -41,7 +41,7 @@ bool meet(const Soup& soup, const Corners& a, const Corners& b) {
   if (common == 3) return false;
   if (common == 2) {
     const Corners *one = &a, *other = &b;
-    std::array<std::size_t, 4> v{};  // indices of the shared vertices first, then that of a alone and that of b alone
+    std::array<std::size_t, 4> v{};  // the two shared vertices, then the other vertex of a, then the other vertex of b
     std::size_t shared = 0;
     for (const std::size_t w : *one) (has(*other, w) ? v[shared++] : v[2]) = w;
     for (const std::size_t w : *other)
@@ -98,14 +98,14 @@ void judge(Soup& soup, bool weld, bool count_soup) {
     closed = CGAL::is_closed(mesh);
     std::vector<std::pair<Surface::Face_index, Surface::Face_index>> found;
     PMP::self_intersections(mesh, std::back_inserter(found));
-    // CGAL reports a face without area as one that intersects itself; these are not counted.
+    // CGAL reports a face without area as intersecting itself; do not count these.
     pairs = found.size() - flat;
     area = PMP::area(mesh);
     const auto part = mesh.add_property_map<Surface::Face_index, std::size_t>("part", 0).first;
     components = PMP::connected_components(mesh, part);
     if (closed) {
       volume = PMP::volume(mesh);
-      // Orientation and volume are defined only for meshes without self-intersections.
+      // These two functions of CGAL require meshes without self-intersections.
       if (found.empty()) {
         outward = PMP::is_outward_oriented(mesh);
         bounds = PMP::does_bound_a_volume(mesh);

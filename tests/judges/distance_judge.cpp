@@ -3,7 +3,7 @@
 //
 //   sgm_judge_distance ERROR FILE
 
-// The kernel must be included first: distance.h uses functions of it without declaring them.
+// Include the kernel first: distance.h uses functions of it without declaring them.
 #include "soup_file.h"
 
 #include <CGAL/Polygon_mesh_processing/distance.h>

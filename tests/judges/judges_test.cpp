@@ -1,4 +1,4 @@
-// Compares our measures with those of CGAL and of Manifold, which share no code with ours.
+// Compares our measures with those of CGAL and of Manifold, which share no code with this project.
 
 #include <cstdlib>
 #include <map>
@@ -41,8 +41,8 @@ SelfIntersections crossings(const Triangles& mesh) {
   return selfIntersections(mesh, Bvh(mesh, *jobs), uint64_t{1} << 40, *jobs);
 }
 
-/// Closes a region's mesh, which ends at the region's border: each border loop gets a cone whose tip is its first point
-/// moved outward. The closed mesh may intersect itself, which does not matter for area and volume.
+/// Closes a mesh that ends at the border of its region: each border loop gets a cone whose tip is the loop's first
+/// point, moved outward. The closed mesh may intersect itself, which does not affect area and volume.
 void closeBorders(Mesh& mesh) {
   std::map<std::pair<uint32_t, uint32_t>, int> sides;
   for (const Triangle& t : mesh.triangles) {
@@ -87,7 +87,7 @@ struct Named {
   Mesh mesh;
 };
 
-/// Five shapes, each at five densities.
+/// Returns five shapes, each at five densities of triangles.
 const std::vector<Named>& shapes() {
   static const std::vector<Named> all = [] {
     std::vector<Named> made;
@@ -110,8 +110,8 @@ const std::vector<Named>& shapes() {
 
 bool near(double ours, double theirs) { return std::fabs(ours - theirs) <= 1e-5 * std::fabs(theirs); }
 
-/// Random triangles on a lattice with few places, so that corners on edges, common planes and common corners are
-/// frequent.
+/// Makes random triangles with corners on a lattice of few points, so that corners on edges, common planes and common
+/// corners are frequent.
 Mesh latticeSoup(std::mt19937& random, uint32_t places, uint32_t triangles) {
   Mesh mesh;
   for (uint32_t i = 0; i < triangles; ++i) {
@@ -130,7 +130,7 @@ Mesh latticeSoup(std::mt19937& random, uint32_t places, uint32_t triangles) {
   return mesh;
 }
 
-/// Random triangles anywhere, large and small.
+/// Makes random triangles at arbitrary positions, large and small.
 Mesh soup(std::mt19937& random, uint32_t triangles) {
   Mesh mesh;
   const auto place = [&](double reach) {
@@ -160,7 +160,7 @@ TEST_CASE("five shapes at five densities have CGAL's area and volume", "[cgal]")
     CHECK(ours.parts.shells.size() == theirs.components);
     CHECK(ours.self_intersections->pairs == theirs.pairs);
     CHECK(ours.flat_triangles == theirs.flat);
-    // Closing a border with cones makes the surface intersect itself.
+    // Some meshes are invalid, because closing their borders with cones makes them intersect themselves.
     CHECK(ours.valid() == theirs.valid());
   }
 }
@@ -182,15 +182,14 @@ TEST_CASE("five shapes at five densities have Manifold's area, volume and genus"
 }
 
 // Differences between the counts of CGAL 5.5 and the rules of triangle_pair.h:
-//  - Triangles without area: CGAL lists each as intersecting itself, and examines it no further. Ours intersect
-//    nothing; the judge removes these from CGAL's list.
+//  - Triangles without area: CGAL lists each as intersecting itself, and does not examine it further. By our rules such
+//    a triangle intersects nothing, so the judge removes it from CGAL's list.
 //  - A triangle and its reverse, joined along their edges (a closed surface of two triangles): CGAL examines one common
-//    edge, and reports a fold. Ours are duplicates, which checkTriangles() counts.
-//  - CGAL cannot count in soups before 6.0, nor in a surface with three triangles at an edge: the judge applies CGAL's
-//    predicates to all pairs, according to the number of point indices that they share. For a surface both counts are
-//    equal, except for the second difference, where the judge follows our rule.
-//  - Points with equal positions but different indices are different points: triangles that touch there intersect. This
-//    rule is the same in both.
+//    edge, and reports a fold. By our rules they are duplicates, which checkTriangles() counts; the judge follows them.
+//  - CGAL before 6.0 cannot count intersections in soups or in surfaces with three triangles at an edge. The judge
+//    therefore applies CGAL's predicates to all pairs, according to the number of point indices that the pair shares.
+// CGAL's rules and ours agree on points with equal positions but different indices: these are different points, so
+// triangles that touch there intersect.
 TEST_CASE("CGAL counts as many pairs that meet in soups, on a lattice and off it", "[cgal]") {
   JudgedMeshes meshes;
   std::vector<uint64_t> ours;
@@ -223,25 +222,25 @@ TEST_CASE("CGAL counts as many pairs that meet in damaged surfaces", "[cgal]") {
     const double edge = length(mesh.points[mesh.triangles[0][0]] - mesh.points[mesh.triangles[0][1]]);
     switch (seed % 3) {
       case 0:
-        // Moves some points to random places.
+        // Move some points to random positions.
         for (uint32_t i = 0; i < 1 + any(random, 20); ++i) {
           Point& p = mesh.points[any(random, mesh.points.size())];
           p = p + (5 * edge) * Point{between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};
         }
         break;
       case 1:
-        // Moves all points a little: neighbouring triangles intersect each other.
+        // Move all points a little, so that neighbouring triangles intersect each other.
         for (Point& p : mesh.points)
           p = p + (0.5 * edge) * Point{between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};
         break;
       default:
-        // Snaps all points to a coarse lattice: points coincide, triangles overlap in a plane, many have no area.
+        // Snap all points to a coarse lattice: points coincide, triangles overlap in a plane, and many have no area.
         mesh = mesh.moved([&](Point p) {
           return Point{edge * std::round(p.x / edge), edge * std::round(p.y / edge), edge * std::round(p.z / edge)};
         });
         break;
     }
-    // The mesh is added with its numbers unchanged, so that its topology stays that of a surface.
+    // Add the mesh without welding equal points, so that its topology stays that of a surface.
     meshes.add(mesh, kSoup);
     ours.push_back(crossings(mesh));
     flat.push_back(measured(mesh).flat_triangles);
@@ -275,7 +274,7 @@ TEST_CASE("CGAL finds the same good meshes good, and the same damaged ones bad",
     const MeshMeasures ours = measured(mesh);
     cases.push_back({name, seed, ours.valid(), ours});
   };
-  // In the long run, a hundred meshes with each kind of defect, and a thousand without.
+  // The long run tests a hundred meshes with each kind of defect, and a thousand without.
   for (unsigned seed = 0; seed < rounds(100); ++seed) {
     std::mt19937 random(seed);
     add("good", seed, goodMesh(random));
@@ -316,7 +315,7 @@ TEST_CASE("CGAL finds the same nests of shells good and bad", "[cgal]") {
   for (unsigned seed = 0; seed < rounds(100); ++seed) {
     std::mt19937 random(seed);
     Mesh mesh;
-    // Two piles of up to four nested shells; more often than not, each shell is oriented as its nesting requires.
+    // Make two stacks of up to four nested shells. Most shells are oriented as their nesting requires, some are not.
     for (uint32_t pile = 0; pile < 2; ++pile) {
       const uint32_t shells = 1 + any(random, 4);
       for (uint32_t i = 0; i < shells; ++i) {
@@ -362,7 +361,7 @@ TEST_CASE("CGAL's distances lie between our bounds", "[cgal]") {
   JudgedMeshes meshes;
   std::vector<double> sizes;
   for (auto& [first, second] : pairs) {
-    // The same error is expected relative to the size of each mesh.
+    // Scale each pair of meshes to size 1, so that the judge's absolute error bound is relative to the size.
     double size = 0;
     for (const Point p : first.points) size = std::max(size, length(p - first.points[0]));
     for (Mesh* mesh : {&first, &second}) {
@@ -394,7 +393,7 @@ TEST_CASE("CGAL's distances lie between our bounds", "[cgal]") {
 
 TEST_CASE("where CGAL's count of pairs is another", "[cgal]") {
   Mesh pillow{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
-  // A corner is moved onto the line through two others: one of four triangles has no area, and touches the others along
+  // One corner lies on the line through two others: one of the four triangles has no area, and touches the others along
   // that line.
   Mesh flat{{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
   JudgedMeshes meshes;

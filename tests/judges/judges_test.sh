@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Runs the test cases that use one judge (cgal, manifold); if it is not installed, prints what to install.
+# Runs the test cases that use one judge (cgal or manifold). If that program is not installed, prints the package to
+# install.
 #
 #   judges_test.sh JUDGE TEST_PROGRAM
 set -euo pipefail

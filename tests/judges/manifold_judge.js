@@ -33,7 +33,7 @@ const [tools, file] = process.argv.slice(2);
     } catch (e) {
       status = e.code || e.message;
     }
-    // Manifold's genus is correct only for a single part, so the sum over the parts is used.
+    // Manifold's genus is correct only for a connected mesh, so sum the genus of the parts.
     const genus = parts.reduce((sum, part) => sum + part.genus(), 0);
     console.log(status, parts.length, genus, solid ? solid.surfaceArea() : 0, solid ? solid.volume() : 0);
     for (const part of parts) part.delete();

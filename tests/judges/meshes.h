@@ -17,7 +17,7 @@
 namespace sgm::measure {
 
 inline constexpr uint32_t kWeld = 1;  ///< flag: points with equal coordinates count as one point
-/// flag: for a mesh that is not a surface, count intersecting pairs by testing all pairs.
+/// flag: if the mesh is not a surface, count intersecting pairs by testing all pairs of triangles
 inline constexpr uint32_t kSoup = 2;
 
 class JudgedMeshes {
@@ -36,7 +36,7 @@ class JudgedMeshes {
     ++count_;
   }
 
-  /// Runs the command with the file as its last argument. Returns the judge's results, one for each mesh.
+  /// Runs the judge's command with the file as its last argument. Returns the results, one for each mesh.
   template <class Verdict>
   std::vector<Verdict> judge(const std::string& command) {
     file_.flush();
@@ -68,13 +68,13 @@ class JudgedMeshes {
 
 struct CgalVerdict {
   bool finite = false, manifold = false, closed = false;
-  /// Set for closed meshes that do not intersect themselves. `outward`: each part encloses its inside; `bounds`: the
-  /// parts are oriented and nested as the boundary of a solid.
+  /// Set only for closed meshes without self-intersections. `outward`: each part is oriented so that it encloses its
+  /// inside. `bounds`: the parts are oriented and nested as the boundary of a solid.
   bool outward = false, bounds = false;
   uint64_t components = 0, flat = 0, pairs = 0, soup_pairs = 0;
   double area = 0, volume = 0;
 
-  /// Whether the mesh is the surface of a solid. An empty mesh is valid.
+  /// True if the mesh is the boundary of a solid. An empty mesh is valid.
   bool valid() const { return finite && manifold && closed && flat == 0 && pairs == 0 && outward && bounds; }
   friend std::istream& operator>>(std::istream& in, CgalVerdict& v) {
     return in >> v.finite >> v.manifold >> v.closed >> v.outward >> v.bounds >> v.components >> v.flat >> v.pairs >>
@@ -82,7 +82,7 @@ struct CgalVerdict {
   }
 };
 
-/// The Hausdorff distance from the mesh to the other mesh of its pair.
+/// The one-sided Hausdorff distance from a mesh to the second mesh of its pair.
 struct CgalDistance {
   double distance = 0;
 
@@ -100,7 +100,7 @@ struct ManifoldVerdict {
   }
 };
 
-/// The mesh with coordinates rounded to single precision, which is all that Manifold accepts.
+/// Returns the mesh with coordinates rounded to single precision, the only precision that Manifold accepts.
 inline Mesh inFloats(const Mesh& mesh) {
   return mesh.moved([](Point p) {
     const auto rounded = [](double v) { return static_cast<double>(static_cast<float>(v)); };

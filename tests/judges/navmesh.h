@@ -1,5 +1,5 @@
 #pragma once
-// A navigation mesh as games make it, with Recast and Detour, for one kind of agent.
+// A navigation mesh for one kind of agent, made with Recast and Detour as games do.
 
 #include <DetourNavMesh.h>
 #include <DetourNavMeshBuilder.h>
@@ -17,15 +17,15 @@
 
 namespace sgm::test {
 
-/// Properties of an agent, in metres and degrees.
+/// Size and abilities of an agent. radius, height, climb: metres; slope: degrees.
 struct Agent {
   float radius = 0.4f, height = 1.8f, climb = 0.4f, slope = 45;
 };
 
-/// The places on a mesh where an agent can walk.
+/// The parts of a mesh's surface on which an agent can walk.
 class Navmesh {
  public:
-  /// cell: edge of Recast's voxels in metres; they are half as high.
+  /// cell: horizontal edge of Recast's voxels in metres; voxels are half as high.
   Navmesh(const WorldMesh& mesh, const Agent& agent, float cell) {
     std::vector<float> points;
     for (const std::array<double, 3>& p : mesh.positions)
@@ -90,9 +90,9 @@ class Navmesh {
 
   int polygons() const { return polygons_; }
 
-  /// The corners of a path from one of the places in `from` to one of those in `to`, in metres from the mesh's origin;
-  /// empty if there is none. A place may lie some distance above the floor or beside it, for example on a boulder that
-  /// the agent cannot climb; several places are passed for that reason.
+  /// Returns the corners of a path from any of the positions `from` to any of the positions `to`, in metres from the
+  /// mesh's origin; empty if there is no path. Several positions are passed because one may lie above the floor or
+  /// beside it, for example on a boulder that the agent cannot climb.
   std::vector<std::array<double, 3>> way(std::span<const std::array<double, 3>> from,
                                          std::span<const std::array<double, 3>> to) const {
     for (const std::array<double, 3>& start : from) {
@@ -104,7 +104,7 @@ class Navmesh {
     return {};
   }
 
-  /// The place nearest to `to` that the agent can reach from `from`, to report where a path ends.
+  /// Returns the position nearest to `to` that the agent can reach from `from`, to report where a path ends.
   std::array<double, 3> reached(const std::array<double, 3>& from, const std::array<double, 3>& to) const {
     constexpr int kMost = 4096;
     const dtQueryFilter all;
@@ -120,9 +120,9 @@ class Navmesh {
   }
 
  private:
-  /// The polygons of the floor next to two places.
+  /// The navigation polygons nearest to two positions.
   struct Ends {
-    dtPolyRef first = 0, goal = 0;  ///< 0: there is no floor near that place
+    dtPolyRef first = 0, goal = 0;  ///< polygon at the first and at the second position; 0 if there is no floor near it
     std::array<float, 3> at{}, last{};
 
     Ends(const dtNavMeshQuery& query, const std::array<double, 3>& from, const std::array<double, 3>& to) {

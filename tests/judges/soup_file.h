@@ -1,5 +1,5 @@
 #pragma once
-// Reads a file of meshes (meshes.h) for the judges that use CGAL.
+// Reads a file of meshes (format: meshes.h) for the judges that use CGAL.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -19,7 +19,7 @@ struct Soup {
   std::vector<Corners> triangles;
 };
 
-/// Calls judge(soup) for each mesh. Returns whether the file ended after a complete mesh.
+/// Calls judge(soup) for each mesh in the file. Returns true if the file ends after a complete mesh.
 template <class Judge>
 bool forSoups(std::ifstream& file, Judge&& judge) {
   const auto read = [&file](auto* values, std::size_t count) {

@@ -1,5 +1,5 @@
-// Tests that sample caves are walkable, with a navigation mesh as games make it, and that their passages vary in
-// cross-section.
+// Tests that sample caves are walkable, by a navigation mesh as games use it, and that the cross-sections of their
+// passages vary.
 //
 //   SGM_WALK_SEEDS=100 test_walk   tests 100 seeds, from SGM_WALK_FIRST on; SGM_WALK_ONLY=cave: only samples
 //                                  with "cave" in their names
@@ -23,16 +23,17 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-constexpr double kCell = 0.2;  // metres, edge of the mesh's grid cells and of Recast's voxels
+constexpr double kCell = 0.2;  // edge of the mesh's grid cells and of Recast's voxels, in metres
 
-/// A sample whose halls are connected within a block of `cells` grammar cells, according to its `expect
-/// components(air)`.
+/// A sample cave whose halls are all connected within a block of `cells` grammar cells, as its `expect components(air)`
+/// states.
 struct Walk {
   const char* grammar;
-  int32_t cells;  ///< grammar cells along an edge of the block: a power of two, within which links of a tree connect
-  double far;     ///< metres: halls that are nearer to each other may be neighbours
-  double hall;    ///< metres: within this distance of a hall's anchor, a passage may still be part of the hall
-  /// Tag of halls to which nobody can walk, because they lie beyond a shaft or a sump; "": there are none.
+  int32_t cells;  ///< number of grammar cells along an edge of the block: a power of two, so that a tree of links
+                  ///< connects all halls in it
+  double far;     ///< halls nearer to each other than this many metres may be neighbours
+  double hall;    ///< within this many metres of a hall's anchor, a passage may still be part of the hall
+  /// Tag of halls that an agent cannot reach, because they lie beyond a shaft or a sump; "" if there are none.
   const char* beyond;
 };
 
@@ -66,7 +67,7 @@ std::string placeText(const Point& p) {
   return out.str();
 }
 
-/// Places around a hall's anchor where an agent may stand.
+/// Returns positions around a hall's anchor where an agent may be able to stand.
 std::vector<Point> placesAround(const Point& anchor) {
   std::vector<Point> places{anchor};
   for (const double far : {2.0, 4.0}) {
@@ -78,7 +79,7 @@ std::vector<Point> placesAround(const Point& anchor) {
   return places;
 }
 
-/// Points along a path, one metre apart.
+/// Returns points along a path, one metre apart.
 std::vector<Point> eachMetre(const std::vector<Point>& corners) {
   std::vector<Point> points;
   double left = 0;
@@ -96,8 +97,8 @@ std::vector<Point> eachMetre(const std::vector<Point>& corners) {
   return points;
 }
 
-/// Measures cross-sections of the void, in square metres: the connected part around a place in the plane perpendicular
-/// to a direction, within kFar of the place.
+/// Measures areas of cross-sections of the void in square metres: in the vertical plane across a path, the connected
+/// part of the void around a place, up to kFar steps from it.
 class CrossSections {
  public:
   explicit CrossSections(const WorldField& world) : world_(world) {}
@@ -106,7 +107,7 @@ class CrossSections {
     constexpr int kFar = 40;
     constexpr double kStep = 0.25;
     const double length = std::hypot(direction[0], direction[2]);
-    // A vertical plane across the path's direction as seen from above.
+    // The section is in a vertical plane, perpendicular to the path's horizontal direction.
     const Point aside{-direction[2] / length, 0, direction[0] / length};
     const double reach = kFar * kStep + 0.5;
     const Result<std::shared_ptr<const FieldProgram>> program =
@@ -151,13 +152,14 @@ class CrossSections {
   EvalScratch scratch_;
 };
 
-/// A part of a path, twenty metres long, whose cross-sections vary little.
+/// A section of a path, twenty metres long, and how much the area of its cross-sections varies.
 struct Window {
-  double variation = 1;       ///< standard deviation of the areas divided by their mean
-  std::vector<double> areas;  ///< square metres, at places one metre apart
+  double variation = 1;       ///< coefficient of variation: standard deviation of the areas divided by their mean
+  std::vector<double> areas;  ///< areas of cross-sections, one metre apart, in square metres
 };
 
-/// The part of a path between two halls with the least variation. Places nearer than `hall` to either end do not count.
+/// Returns the section of a path between two halls whose cross-sections vary least. Places nearer than `hall` metres to
+/// either end do not count.
 Window leastVaried(CrossSections& sections, const std::vector<Point>& way, double hall) {
   constexpr ptrdiff_t kWindow = 20;
   const std::vector<Point> points = eachMetre(way);
@@ -234,7 +236,7 @@ TEST_CASE("an agent walks from each hall of a cave to each other, through passag
                                       << " m from " << placeText(origin));
         CHECK(is_reached);
         reached += is_reached;
-        // Only neighbouring halls whose path leads through no other hall are compared.
+        // Measure only paths between neighbouring halls that lead through no other hall.
         for (size_t k = 0; k < i; ++k) {
           if (distance(halls[i], halls[k]) > walk.far) continue;
           const std::vector<Point> way = walked(k, i);

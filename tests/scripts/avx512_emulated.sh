@@ -4,11 +4,12 @@
 #
 #   SGM_LONG=1 [LIMIT=SECONDS] avx512_emulated.sh WORK TEST_CONFORMANCE SGM_HASHES
 #
-#   WORK    a folder for the kernel, which later runs use again, and for serial.txt, the guest's output
-#   others  the paths of the programs of those names
-#   LIMIT   seconds of real time after which the emulator is stopped and the test fails (default: 5400)
+#   WORK              a folder for the kernel, which later runs use again, and for serial.txt, the guest's output
+#   TEST_CONFORMANCE  path of the program test_conformance
+#   SGM_HASHES        path of the program sgm_hashes
+#   LIMIT             seconds of real time after which the emulator is stopped and the test fails (default: 5400)
 #
-# It takes minutes, and packages that no other test needs, so without SGM_LONG=1 it is skipped, with status 77.
+# The test takes minutes and needs packages that no other test needs, so without SGM_LONG=1 it is skipped (status 77).
 set -euo pipefail
 (($# == 3)) || { echo "usage: avx512_emulated.sh WORK TEST_CONFORMANCE SGM_HASHES" >&2; exit 2; }
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -35,7 +36,8 @@ for command in bochs-bin busybox xorriso script; do
   command -v "$command" >/dev/null || die "there is no command $command here"
 done
 
-# Unpacks the kernel's package without installing it: this machine would boot an installed kernel next time.
+# fetch_kernel: unpacks the kernel's package without installing it, because this machine would otherwise boot that
+# kernel next time.
 fetch_kernel() {
   local name folder=$work/kernel
   rm -rf "$folder"
@@ -49,7 +51,8 @@ if [[ ! -s $work/linux ]]; then
   fetch_kernel || die "could not unpack a kernel of $kernel_package (is the network there? run apt-get update first)"
 fi
 
-# The guest's file system: the programs, the libraries that they load, the sample grammars, and a shell to start them.
+# Makes the guest's file system: the programs, the libraries that they load, the sample grammars, and a shell that
+# starts them.
 rm -rf "$work/guest" "$work/iso"
 mkdir -p "$work"/guest/{bin,dev,lib,lib64,proc,tmp} "$work/iso"
 cp "$(command -v busybox)" "$work/guest/bin/busybox"
@@ -63,9 +66,9 @@ for program in "${programs[@]}"; do
     esac
   done < <(ldd "$program" | grep -o '/[^ ]*')
 done
-# SGM_TEST_INSTRUCTION_SET makes the test fail where it would otherwise skip AVX-512. Some cases are left out only
-# because they take too long, some hundred times as long as on a real processor: the cloud takes most of the time of all
-# recorded meshes.
+# SGM_TEST_INSTRUCTION_SET makes the test fail if AVX-512 is not available, where it would otherwise be skipped. Cases
+# that take too long are left out: emulation is some hundred times slower than a processor, and the cloud alone takes
+# most of the time of all recorded meshes.
 grep -v '^cloud' "$root/tests/determinism/golden.txt" >"$work/guest/golden.txt"
 cat >"$work/guest/init" <<'END'
 #!/bin/busybox sh
@@ -86,8 +89,8 @@ END
 chmod +x "$work/guest/init"
 (cd "$work/guest" && find . | busybox cpio -o -H newc 2>/dev/null) >"$work/iso/initrd"
 cp "$work/linux" /usr/lib/ISOLINUX/isolinux.bin /usr/lib/syslinux/modules/bios/ldlinux.c32 "$work/iso"
-# Without noxsaves and clearcpuid, the kernel turns AVX off, since bochs reports the size of the uncompacted state for
-# the compacted one. The other options skip probes and loops that take long under emulation.
+# Without noxsaves and clearcpuid the kernel would disable AVX, because bochs reports the size of the uncompacted XSAVE
+# state as that of the compacted one. The other options skip probes and loops that take long under emulation.
 cat >"$work/iso/isolinux.cfg" <<'END'
 default test
 prompt 0
@@ -98,7 +101,8 @@ END
 xorriso -as mkisofs -quiet -o "$work/boot.iso" -b isolinux.bin -c boot.cat -no-emul-boot -boot-load-size 4 \
   -boot-info-table "$work/iso" >"$work/xorriso.log" 2>&1 || die "no boot image: see $work/xorriso.log"
 
-# The guest's clock advances slowly (many instructions per second), so that few instructions are spent on its timer.
+# A high number of instructions per second makes the guest's clock advance slowly, so that few instructions are spent on
+# its timer.
 cat >"$work/bochsrc" <<END
 display_library: term
 romimage: file=/usr/share/bochs/BIOS-bochs-latest
@@ -116,15 +120,15 @@ END
 echo c >"$work/bochs.commands"
 rm -f "$work/serial.txt" "$work/bochs.log"
 started=$SECONDS
-# bochs has no display without a terminal, so `script` gives it one. bochs' exit status does not tell whether the
-# guest's programs passed.
+# bochs needs a terminal for its display, which `script` provides. Its exit status does not tell whether the guest's
+# programs passed.
 TERM=vt100 timeout -k 10 "$limit" \
   script -qec "bochs-bin -q -f '$work/bochsrc' -rc '$work/bochs.commands'" /dev/null >/dev/null 2>&1 </dev/null || true
 
 said=$(tr -d '\r' <"$work/serial.txt" 2>/dev/null) || die "the emulated machine did not start: see $work/bochs.log"
 echo "$said"
 elapsed="after $((SECONDS - started)) s"
-expect() {  # expect COUNT PATTERN WHAT
+expect() {  # expect COUNT PATTERN WHAT: fails unless the guest's output has COUNT lines that match PATTERN.
   (($(grep -cE -- "$2" <<<"$said") == $1)) ||
     die "AVX-512 is not shown to be right: $3 ($elapsed; see $work/serial.txt)"
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tests that a build folder still works after a module's folder gets submodules, or loses them: no source is replaced by
-# a link, and headers are found.
+# Tests that an existing build folder still works after a module's folder gets submodules, or loses them: no source file
+# may be replaced by a link, and headers must be found.
 #
 #   bash tests/scripts/include_root_test.sh CMAKE ROOT
 set -euo pipefail
@@ -19,7 +19,7 @@ echo 'sgm_module(m SOURCES a.cpp)' >"$work/m/CMakeLists.txt"
 echo 'int a();' >"$work/m/a.h"
 printf '#include "m/a.h"\nint a() { return 1; }\n' >"$work/m/a.cpp"
 
-# built STEP: configures and builds; fails if the header is no longer the original file.
+# built STEP: configures and builds; fails if the header in the source folder was replaced.
 built() {
   { "$cmake" -S "$work" -B "$work/build" && "$cmake" --build "$work/build"; } >"$work/log" 2>&1 ||
     { cat "$work/log"; echo "$1: the build failed" >&2; exit 1; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tests samples/setup_debian.sh with stand-ins for apt and other commands: installed packages are left alone, missing
-# ones are installed and reported, and a package that is not available is named in one line with a non-zero status.
+# Tests samples/setup_debian.sh with fake versions of apt and other commands: it must not touch installed packages, must
+# install and report missing ones, and must report an unavailable package in one line, with a non-zero status.
 #
 #   bash tests/scripts/setup_test.sh [ROOT]
 set -euo pipefail

@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
-# Finds what the tree must not contain: arithmetic outside the contract, absolute paths of one machine, addresses of
-# package servers, marks of unfinished work, and files that are too long; a README whose program differs from the tested
-# sample, or whose list of packages differs from what the scripts install.
+# Searches the source tree for forbidden content: arithmetic that violates the arithmetic contract, absolute paths of
+# one machine, addresses of package servers, marks of unfinished work, and files that are too long. Also checks that the
+# README's program is that of the tested sample, and that its list of packages is what the scripts install.
 #
 #   bash tests/scripts/style.sh [ROOT]
 set -euo pipefail
 cd "${1:-.}"
 failed=0
 
-complain() {  # complain WHAT MATCHES
+complain() {  # complain WHAT MATCHES: if MATCHES is not empty, prints both, and the script fails
   [[ -z $2 ]] && return
   printf 'style: %s\n%s\n' "$1" "$2" >&2
   failed=1
 }
 tracked() { git ls-files -co --exclude-standard -- "$@" ':!tests/scripts/style.sh'; }
-# Search PATTERN PATHS...: prints matches in tracked text files; a path without such files is an error, because the rule
+# search PATTERN PATHS...: prints matches in tracked text files. A path without such files is an error, since the rule
 # would otherwise check nothing.
 search() {
   local pattern=$1 path
@@ -39,13 +39,14 @@ complain "unfinished marks" "$(search '\b(TODO|FIXME|XXX|HACK)\b' "${code[@]}" "
 complain "paths of one machine" "$(search '(^|[^[:alnum:]_.$}*])/(work|home|farm|root|Users)/' .)"
 complain "package hosts: packages come by name from the machine's own clients" \
   "$(search '\b(deb\.debian\.org|archive\.ubuntu\.com|registry\.npmjs\.org|pypi\.org|crates\.io)' .)"
-# Exceptions: the C interface is one header, which is also its manual; the table of built-in masters is generated.
+# Exceptions: the C interface is a single header, which is also its manual; the table of built-in reference histograms
+# is generated.
 complain "files over 1,000 lines" \
   "$(tracked "${code[@]}" '*.sh' '*.py' ':!runtime/include/sgm/sgm.h' \
     ':!runtime/tools/classify/built_in_masters.inc' | xargs -r -d '\n' wc -l | awk '$2 != "total" && $1 > 1000')"
 complain "a test begins from testSeed() (tests/unit/seed.h), which is the same in every run but the long one" \
   "$(search 'random_device' 'tests/**' ':!tests/unit/seed.h')"
-# field/reference.* is excepted: it only checks the results of the kernels.
+# Exception: field/reference.* only checks the results of the kernels.
 complain "libm in code that feeds derived data: use base/math.h (std::sqrt, floor, fabs are exact)" \
   "$(search '\bstd::(sin|cos|tan|asin|acos|atan|atan2|exp|exp2|log|log2|pow|cbrt|hypot|fma)f?\(' \
     'runtime/base/*' 'runtime/asset/*' 'runtime/grammar/*' 'runtime/derive/*' 'runtime/field/*' 'runtime/mesh/*' 'runtime/backend/*' \

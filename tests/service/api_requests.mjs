@@ -4,7 +4,7 @@ import net from 'node:net';
 
 export const seed = Number(process.env.SGM_SEED ?? Date.now() % 1e9);
 let state = seed >>> 0;
-/// A random number from 0 to 1 (Mulberry32).
+/// Returns a random number from 0 to 1 (generator: Mulberry32).
 function draw() {
   state = (state + 0x6d2b79f5) | 0;
   let t = Math.imul(state ^ (state >>> 15), state | 1);
@@ -14,8 +14,8 @@ function draw() {
 export const chance = (share) => draw() < share;
 export const pick = (list) => list[Math.floor(draw() * list.length)];
 
-/// Sends a request; resolves to the whole answer, or to status 0 with the reason in `problem`. unsized: sends the body
-/// with neither Content-Length nor chunks.
+/// Sends an HTTP request; resolves to the complete response, or to status 0 with the reason in `problem`. unsized:
+/// sends the body with neither Content-Length nor chunked encoding.
 export function ask(base, method, { path, headers, body, unsized }) {
   const { hostname, port } = new URL(base);
   return new Promise((resolve) => {
@@ -32,13 +32,14 @@ export function ask(base, method, { path, headers, body, unsized }) {
     });
     request.on('timeout', () => request.destroy(new Error('no answer in 60 s')));
     request.on('error', (error) => resolve({ status: 0, headers: {}, body: Buffer.alloc(0), problem: error.message }));
-    // A request with a false Content-Length and no body is not ended, so that its connection stays open for the answer.
+    // If a request has a false Content-Length and no body, do not end it, so that its connection stays open for the
+    // response.
     if (headers['content-length'] && body === null) request.flushHeaders();
     else request.end(body ?? undefined);
   });
 }
 
-/// Sends a request whose head never ends.
+/// Sends a request whose header section never ends, one byte a second.
 export function askSlowly(base, method, path) {
   const { hostname, port } = new URL(base);
   return new Promise((resolve) => {

@@ -1,6 +1,6 @@
-// Sends random requests as the OpenAPI description allows, and others that it does not, and compares every answer with
-// the description: its status must be described, and its body must have the described type and schema. Every described
-// status must occur.
+// Sends random requests, some that the OpenAPI description allows and some that it does not, and checks every response:
+// its status must be in the description, and its body must have the described type and schema. Every described status
+// must occur.
 //
 //   node api_test.mjs BASE_URL OPERATIONS_URL TOKEN_BASE_URL TOKEN_OPERATIONS_URL MESH NODE_MODULES
 //
@@ -26,7 +26,7 @@ const description = await (await fetch(`${base}/api/v1/openapi.json`)).json();
 const verdict = await new Validator().validate(structuredClone(description));
 if (!verdict.valid) fail(`the description is no OpenAPI: ${JSON.stringify(verdict.errors).slice(0, 500)}`);
 
-/// Converts a schema of OpenAPI 3.0, which has `nullable`, to JSON Schema, which has the additional type null instead.
+/// Converts a schema of OpenAPI 3.0 to JSON Schema: `nullable` becomes the additional type null.
 function jsonSchema(value) {
   if (Array.isArray(value)) return value.map(jsonSchema);
   if (value === null || typeof value !== 'object') return value;
@@ -64,7 +64,7 @@ const bodies = {
   'text/plain': ['x'],
 };
 
-/// Every operation of the description, with the statuses that were answered so far.
+/// Every operation of the OpenAPI description, with the statuses that the service has returned for it so far (`seen`).
 const all = [];
 for (const [path, item] of Object.entries(description.paths)) {
   for (const method of ['get', 'put', 'post']) {
@@ -96,7 +96,7 @@ function hold(one, answer, what) {
   if (type === 'application/problem+json' && value.status !== status) fail(`${where}: its problem says ${value.status}`);
 }
 
-/// A random value for a parameter: mostly one that fits its schema, sometimes one that does not.
+/// Returns a random value for a parameter: mostly one that fits its schema, sometimes one that does not.
 function valueFor(parameter) {
   if (parameter.in === 'path') return chance(0.8) ? pick(known[parameter.name]) : pick(['..', 'a b', 'ä', 'x'.repeat(300)]);
   if (parameter.schema.type === 'number' || parameter.schema.type === 'integer') return pick(['0.5', '1', '-1', 'x', '1e999']);
@@ -122,10 +122,10 @@ function drawRequest(one) {
   }
   return { path: query.length ? `${path}?${query.join('&')}` : path, headers, body };
 }
-/// The simplest valid request of an operation, with ids and names that exist.
+/// Returns the simplest valid request for an operation, with existing ids and names.
 const plain = (one) => ({ path: one.path.replace('{id}', known.id[1]).replace('{name}', known.name.at(-1)), headers: {}, body: null });
 
-// Requests that time out run while the others are sent.
+// These requests time out; they run while the others are sent.
 const slow = all.map((one) => askSlowly(one.from, one.method, plain(one).path).then((answer) => hold(one, answer, 'slow')));
 for (const one of all) {
   for (let i = 0; i < kRounds / 10; ++i) hold(one, await ask(one.from, one.method, drawRequest(one)), 'drawn');

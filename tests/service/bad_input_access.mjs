@@ -1,4 +1,5 @@
-// Rows of the table of bad input that need a service with a token, or one that stores masters.
+// Rows of the table of bad input that need a service with a token, or a service that stores reference histograms
+// ("masters").
 import { ask, jsonOf, must, requestBytes } from './http_probe.mjs';
 import { mustBeSafe, mustRefuse } from './bad_input_rows.mjs';
 

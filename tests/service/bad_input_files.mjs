@@ -10,10 +10,13 @@ const line = (bytes, number, text) => {
 const spoilt = (change, more = {}) => () => glb(small, { change, ...more });
 const grammar = (text) => () => Buffer.from(text);
 
-/** A ball as .glb whose buffer is external, at `uri`. */
+/** Returns a ball as .glb whose buffer is external, at `uri`. */
 export const elsewhere = (uri) => spoilt((json) => { json.buffers[0].uri = uri; }, { without_bin: true })();
 
-/** As `files` of meshes.mjs; pointer and line: what the problem's members of that name must be. */
+/**
+ * Damaged files by name, in the format of `files` in meshes.mjs. pointer, line: the expected members of the problem
+ * object.
+ */
 export const damaged = {
   'nan_position.glb': { pointer: /^\/accessors\/0/, bytes: spoilt((json, bin) => bin.writeFloatLE(NaN, 24)) },
   'infinite_position.glb': { pointer: /^\/accessors\/0/, bytes: spoilt((json, bin) => bin.writeFloatLE(Infinity, 24)) },
@@ -32,7 +35,8 @@ export const damaged = {
   'sparse_index_out_of_range.glb': {
     pointer: /^\/accessors\/0\/sparse/,
     bytes: spoilt((json, bin) => {
-      // The sparse accessor reads the last index of the triangles as the number of the point to replace.
+      // The sparse accessor uses the last index of the triangles as the number of the point that it replaces, so make
+      // that index too large.
       bin.writeUInt32LE(small.points.length, bin.length - 4);
       json.accessors[1].count -= 3;
       json.accessors[0].sparse = { count: 1, values: { bufferView: 0, byteOffset: 0 },
@@ -73,7 +77,8 @@ export const refusedGrammars = {
 };
 
 /**
- * Random overlapping triangles, the same for every call: they have millions of intersections, which take long to find.
+ * Returns random overlapping triangles, the same for every call. They have millions of intersections, which take long
+ * to find.
  */
 export function soup(count, size = 0.3) {
   let state = 1;

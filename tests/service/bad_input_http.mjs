@@ -7,7 +7,7 @@ const bad = { status: 400, code: 'bad_request', closes: true };
 const missing = { status: 404, code: 'not_found', closes: false };
 const stl = { 'Content-Type': 'model/stl' };
 
-/** By name: the bytes that a client sends, and the answer required. `host` is a valid Host field. */
+/** For each name: the bytes that a client sends, and the required response. `host` is a valid Host field. */
 const refusals = (base, host) => {
   const get = (target, headers = {}) => requestBytes(base, { target, headers });
   const post = (headers, extra = {}) =>

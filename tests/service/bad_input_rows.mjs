@@ -1,15 +1,15 @@
 // Tests one row of the table of bad input: sends bad bytes on a new connection, followed by a valid request, and checks
-// all properties of the answer.
+// all properties of the response.
 import fs from 'node:fs';
 import { ask, jsonOf, must, requestBytes, talk } from './http_probe.mjs';
 
-/** Checks the headers that every answer of the service must have. */
+/** Checks the security headers that every response of the service must have. */
 export function mustBeSafe({ headers }) {
   must(headers['x-content-type-options'] === 'nosniff', 'X-Content-Type-Options: nosniff is missing');
   must(headers['referrer-policy'] === 'no-referrer', 'Referrer-Policy: no-referrer is missing');
 }
 
-/** Returns the problem object of an answer, which must have this status and code. */
+/** Checks that a response has this status and code; returns its problem object. */
 export function problemIn(answer, status, code) {
   must(answer, 'no answer came');
   const text = answer.body.toString('utf8');
@@ -32,8 +32,9 @@ export async function mustBeWell(operations) {
 }
 
 /**
- * Sends bytes, then a valid request: if the connection must close, only the bytes are answered; otherwise both are. The
- * third argument is the answer required: {status, code, closes, headers: {name: pattern}, problem(object), head}.
+ * Sends bytes, then a valid request. If the service must close the connection, only the bytes must be answered;
+ * otherwise both. The third argument is the required response: {status, code, closes, headers: {name: pattern},
+ * problem(object), head}.
  */
 export async function mustRefuse({ base, operations }, bytes, { status, code, closes, headers = {}, problem, head }) {
   const behind = requestBytes(base, { target: '/api/v1/reports' });
@@ -52,7 +53,7 @@ export async function mustRefuse({ base, operations }, bytes, { status, code, cl
   await mustBeWell(operations);
 }
 
-/** The child processes of a process that have not been waited for: {pid, state, command}. */
+/** Returns the child processes of a process, including zombies: {pid, state, command}. */
 export function childrenOf(pid) {
   const children = [];
   for (const name of fs.readdirSync('/proc').filter((entry) => /^\d+$/.test(entry))) {
@@ -63,7 +64,7 @@ export function childrenOf(pid) {
       const command = fs.readFileSync(`/proc/${name}/cmdline`, 'utf8').split('\0');
       children.push({ pid: Number(name), state, command });
     } catch {
-      // The process has ended since /proc was listed.
+      // ignore a process that has ended since /proc was listed
     }
   }
   return children;

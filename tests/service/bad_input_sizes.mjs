@@ -5,7 +5,10 @@ import { mustBeWell, problemIn, residentMebibytes } from './bad_input_rows.mjs';
 
 const kMebibyte = 1 << 20;
 
-/** Sends chunk after chunk, and waits after each for a refusal: the service accepts little more than its limit. */
+/**
+ * Sends one chunk of a body after the other, waiting after each for a refusal: the service may accept only a little
+ * more than its limit.
+ */
 export async function tooManyChunks({ base, operations }) {
   const piece = Buffer.alloc(1 << 16, 'a');
   let sent = 0;
@@ -28,7 +31,10 @@ export async function tooManyChunks({ base, operations }) {
   await mustBeWell(operations);
 }
 
-/** Sends a line that never ends: it is refused early, the connection is closed, and memory does not grow. */
+/**
+ * Sends a line that never ends: the service must refuse it early and close the connection, and its memory must not
+ * grow.
+ */
 export async function hugeLine({ base, operations, pid }, beginning, status, code) {
   const { host, port } = place(base);
   const piece = Buffer.alloc(1 << 16, 'a'), before = residentMebibytes(pid);
@@ -59,7 +65,10 @@ export async function hugeLine({ base, operations, pid }, beginning, status, cod
   await mustBeWell(operations);
 }
 
-/** Starts slow clients, which run while other tests do. Returns pairs [name, promise of the error, or of null]. */
+/**
+ * Starts slow clients, which run while other tests do. Returns pairs [name, promise of an error, or of null if the
+ * client passed].
+ */
 export function slowly({ base, operations }) {
   const drip = (beginning, bytes) => (socket, stopped) => {
     socket.write(beginning);

@@ -1,6 +1,6 @@
-# Tests every bad input of the interface's table over real sockets: each gets the answer it should, and the service
-# keeps working. (The status for a service without a validator cannot be tested with the command, which always sets
-# itself as validator: unit tests cover it.)
+# Tests every row of the table of bad input over real sockets: each must get the documented response, and the service
+# must keep working. (The status of a service without a validator cannot be tested with the command, which always sets
+# itself as the validator: unit tests cover it.)
 source "$(dirname "$0")/common.sh"
 need node nodejs
 
@@ -13,12 +13,12 @@ group() {
   stop_service
 }
 
-# Grammars that an upload must not import: one in the service's working folder, one in its parent.
+# Creates grammars that an upload must not import: one in the service's working folder, one in its parent.
 ball >x.sgm
 mkdir inner && cd inner || exit 1
 cp ../x.sgm .
 echo 0123456789abcdefXYZ >token
-# A ball of 10 m in cells of 3 cm: a million triangles.
+# Makes a mesh of a million triangles: a ball of 10 m in cells of 3 cm.
 expect 0 "$SGM" mesh "$SOURCE/samples/grammars/sphere.sgm" --cell 0.03 --max-chunks 200000 --out million.glb
 group http --upload-mb 1
 group uploads

@@ -12,7 +12,7 @@ const upload = (name, bytes, { query = '', headers = {} } = {}) => ({ method: 'P
   target: `/api/v1/validate?name=${encodeURIComponent(name)}${query}`,
   headers: { 'Content-Type': types[path.extname(name)], ...headers }, body: bytes });
 
-/** An upload that takes seconds to validate on any machine. */
+/** Returns an upload that takes seconds to validate on any machine. */
 const heavy = (triangles = 60000) => upload('soup.stl', stl(soup(triangles)));
 
 async function until(what, holds, seconds = 30) {
@@ -57,7 +57,7 @@ async function refusedFiles(service) {
   await checks.run('no process is left of them', () => mustHaveNoChildren(pid));
 }
 
-/** External buffers that exist, as a local file or on a server: the service must not load them. */
+/** Uploads files whose external buffers exist, as a local file or on a server: the service must not load them. */
 async function externalBuffers(service) {
   const { checks, base, work } = service;
   const wants = { status: 422, code: 'bad_input', closes: false,
@@ -152,7 +152,7 @@ async function million({ checks, base, operations, work }) {
   });
 }
 
-/** Checks of a service with default options. */
+/** Runs the checks for a service with default options. */
 export async function uploads(service) {
   await refusedFiles(service);
   await externalBuffers(service);
@@ -162,7 +162,7 @@ export async function uploads(service) {
   await million(service);
 }
 
-/** Checks of a service that runs one job at a time and queues one. */
+/** Runs the checks for a service that runs one job at a time and queues one more. */
 export async function full({ checks, base, operations, pid }) {
   await checks.run('503, a queue that is full', async () => {
     const first = ask(base, heavy(), { patience: 300000 });
@@ -200,10 +200,10 @@ async function limited({ checks, base, operations, pid }, name, request, says) {
   });
 }
 
-/** Checks of a service with a limit of one second for each job. */
+/** Runs the checks for a service with a limit of one second per job. */
 export const late = (service) => limited(service, '500, more time than the limit', heavy(200000), /1 s/);
 
-/** Checks of a service with a limit of 128 MB for each job. */
+/** Runs the checks for a service with a limit of 128 MB per job. */
 export async function cramped(service) {
   await limited(service, '500, more memory than the limit', upload('soup.stl', stl(soup(1000000, 0.001))), /128 MB/);
 }

@@ -1,4 +1,4 @@
-# Sourced by the tests of the metrics service: adds functions that start and stop a service to those of
+# Sourced by all tests of the metrics service: adds functions that start and stop a service to those of
 # tests/cli/common.sh.
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$tests/../cli/common.sh"
@@ -16,7 +16,8 @@ need() {
   exit 77
 }
 
-# url_in FILE WORD: waits for the line "WORD http://..." that a service prints, and prints the address without its path.
+# url_in FILE WORD: waits until FILE contains the line "WORD http://..." of a service, and prints the address without
+# its path.
 url_in() {
   local url
   for ((i = 0; i < 600; ++i)); do
@@ -31,14 +32,15 @@ url_in() {
 # start_service OPTIONS...: starts `sgm serve` on free ports; sets `base` and `operations` to its addresses, and
 # `service` to its process.
 start_service() {
-  rm -f service.out  # of an earlier one, whose addresses are not these
+  rm -f service.out  # removes the output of an earlier service, which has other addresses
   "$SGM" serve --port 0 --operations-port 0 "$@" >service.out 2>service.err </dev/null &
   service=$!
   started+=("$service")
   base=$(url_in service.out page) && operations=$(url_in service.out metrics) || { cat service.err >&2; exit 1; }
 }
 
-# start_flight GRAMMAR OPTIONS...: the same for `sgm fly --serve`, whose standard output goes to flight.out.
+# start_flight GRAMMAR OPTIONS...: same as start_service, for `sgm fly --serve`, whose standard output goes to
+# flight.out.
 start_flight() {
   rm -f flight.err
   "$SGM" fly "$@" --serve --port 0 --operations-port 0 >flight.out 2>flight.err </dev/null &
@@ -47,7 +49,7 @@ start_flight() {
   base=$(url_in flight.err page) && operations=$(url_in flight.err metrics) || exit 1
 }
 
-# stop_service: ends the service with a signal, as an operator does; fails unless it exits normally.
+# stop_service: ends the service by a signal, as an operator would; fails unless it exits normally.
 stop_service() {
   local status=0
   kill -TERM "$service"
@@ -55,7 +57,7 @@ stop_service() {
   [[ $status == 0 ]] || { failures=$((failures + 1)); echo "FAILED: the service ended with status $status" >&2; }
 }
 
-# checked NAME COMMAND...: runs the command as one test, and shows its output.
+# checked NAME COMMAND...: runs the command as one test, which passes if the command succeeds, and shows its output.
 checked() {
   local name=$1
   shift

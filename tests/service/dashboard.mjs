@@ -1,15 +1,15 @@
 // Checks and converts the dashboard of samples/monitoring for its tests.
 //
-//   node dashboard.mjs check METRICS DASHBOARD ALERTS   prints errors, a line each; status 1 if there are any
-//   node dashboard.mjs rules DASHBOARD                  prints its expressions as recording rules, which promtool parses
-//   node dashboard.mjs expressions DASHBOARD RANGE      prints those that have a value for a CPU world, one a line
+//   node dashboard.mjs check METRICS DASHBOARD ALERTS   prints errors, one per line; status 1 if there are any
+//   node dashboard.mjs rules DASHBOARD                  prints its expressions as recording rules, for promtool
+//   node dashboard.mjs expressions DASHBOARD RANGE      prints its expressions that have a value for a world on the CPU
 import { readFileSync } from 'node:fs';
 
 // Metrics that worlds on the CPU do not have.
 const ofDevices = { sgm_gpu_memory_bytes: ['world', 'heap'], sgm_device_lost_total: ['world'] };
 // Metrics that Prometheus itself adds.
 const ofPrometheus = { up: [], ALERTS: ['alertname', 'alertstate', 'world'] };
-// Metrics that need no panel: the number of worlds is the number of lines in the other panels.
+// Metrics that need no panel. The number of worlds is visible as the number of lines in the other panels.
 const notShown = ['sgm_worlds'];
 
 const [mode, ...files] = process.argv.slice(2);
@@ -22,8 +22,8 @@ function plain(expr, range) {
   return expr.replaceAll('$__rate_interval', range).replaceAll('$instance', '.*').replaceAll('$world', '.*');
 }
 
-// Parses /metrics: a map from each metric's name to its labels, and from each label to the set of its values (null: any
-// value).
+// Parses the text of /metrics. Returns, for each metric's name, a map from each label to the set of its values (null:
+// any value).
 function metricsOf(text) {
   const metrics = new Map();
   for (const [, name, , labels] of text.matchAll(/^([a-z_]+)(\{(.*)\})? \S+$/gm)) {
@@ -44,7 +44,7 @@ function groupingsOf(expr) {
   return [...expr.matchAll(/\b(?:by|on) \(([^)]*)\)/g)].flatMap(([, labels]) => labels.split(/, */));
 }
 
-// Reports the metrics, labels and values in a panel's expression that do not exist.
+// Reports the metrics, labels and label values in a panel's expression that do not exist.
 function checkExpression(where, expr, metrics, used, say) {
   const selectors = [...expr.matchAll(/\b((?:sgm|process)_\w+|up|ALERTS)\b(?:\{([^}]*)\})?/g)];
   if (selectors.length === 0) say(where, `${expr} asks for nothing`);

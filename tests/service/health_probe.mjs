@@ -1,5 +1,5 @@
 // Requests /healthz every 20 ms until standard input ends, then prints all response times in milliseconds. It is a
-// separate process, so that the work of the test's other clients does not count as response time of the service.
+// separate process, so that the work of the test's other clients does not lengthen the measured response times.
 //
 //   node health_probe.mjs OPERATIONS_URL
 import http from 'node:http';

@@ -1,9 +1,10 @@
-// Speaks HTTP over a plain socket, correctly or with the errors that a test wants, and parses the answers.
+// An HTTP client on a plain socket, which can also make the protocol errors that a test needs, and a parser for
+// responses.
 import net from 'node:net';
 
 /**
- * Parses the answers in the bytes that a server sent. heads: the indices of those that answer HEAD requests and so have
- * no body.
+ * Parses the responses in the bytes that a server sent. heads: indices of the responses to HEAD requests, which have no
+ * body.
  */
 export function answersIn(bytes, heads = []) {
   const answers = [];
@@ -38,7 +39,7 @@ export function place(base) {
   return { host: url.hostname.replace(/[[\]]/g, ''), port: Number(url.port), name: url.host };
 }
 
-/** The bytes of a request. body: undefined for none. chunk: the body is sent in chunks of this many bytes. */
+/** Returns the bytes of a request. body: undefined for none. chunk: sends the body in chunks of this many bytes. */
 export function requestBytes(base, { method = 'GET', target = '/', headers = {}, body, chunk, version = '1.1' }) {
   const fields = { Host: place(base).name, ...headers };
   if (body !== undefined && chunk) fields['Transfer-Encoding'] = 'chunked';
@@ -59,10 +60,10 @@ export function requestBytes(base, { method = 'GET', target = '/', headers = {},
 }
 
 /**
- * Sends bytes, or calls a function (socket, stop) that writes to the socket, and collects the answers until the server
- * closes the connection, or `wanted` answers have come and `linger` ms have passed (to see whether it closes), or
- * `patience` ms are over. Resolves to {answers, informal, closed, reset, seconds, rest}; rejects only if it cannot
- * connect.
+ * Sends bytes, or calls a function (socket, stop) that writes to the socket. Collects the responses until the server
+ * closes the connection, or `patience` ms are over, or `wanted` responses have arrived and then `linger` ms have passed
+ * (to see whether the server closes the connection). Resolves to {answers, informal, closed, reset, seconds, rest};
+ * rejects only if it cannot connect.
  */
 export function talk(base, bytes, { wanted = 1, linger = 0, patience = 20000, heads = [] } = {}) {
   const { host, port } = place(base);
@@ -118,7 +119,7 @@ export function talk(base, bytes, { wanted = 1, linger = 0, patience = 20000, he
   });
 }
 
-/** Sends one request on a new connection; resolves to its answer, or to null if none came. */
+/** Sends one request on a new connection; resolves to the response, or to null if none arrived. */
 export async function ask(base, request, options = {}) {
   const heads = request.method === 'HEAD' ? [0] : [];
   const { answers } = await talk(base, requestBytes(base, request), { patience: 60000, heads, ...options });
@@ -128,7 +129,7 @@ export async function ask(base, request, options = {}) {
 export const jsonOf = (answer) => JSON.parse(answer.body.toString('utf8'));
 export const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
-/** Runs checks and prints each result; finish() ends the process, with status 1 if one failed. */
+/** Runs checks and prints each result; finish() ends the process, with status 1 if a check failed. */
 export class Checks {
   #made = 0;
   #failed = [];
@@ -139,7 +140,7 @@ export class Checks {
     console.log(`${holds ? 'ok     ' : 'FAILED '} ${name}${detail !== '' && !holds ? `: ${detail}` : ''}`);
     return holds;
   }
-  /** A check that is a function: what it throws, or rejects with, fails it. */
+  /** Runs a function as a check, which fails if the function throws or rejects. */
   async run(name, body) {
     try {
       await body();

@@ -1,5 +1,6 @@
-// Tests 1,000 clients at once: 590 valid, 200 slow, 100 with too much data, 100 malformed, 10 that upload. Each must
-// get the right answer, while the operations port answers as fast as usual.
+// Tests 1,000 concurrent clients: 590 send valid requests, 200 are slow, 100 send too much data, 100 send malformed
+// requests, and 10 upload meshes. Each must get the right response, while the operations port responds as fast as
+// usual.
 //
 //   node load_test.mjs BASE_URL OPERATIONS_URL PID MESH      the service must accept uploads of up to 1 MiB
 import { spawn } from 'node:child_process';
@@ -11,7 +12,7 @@ const { hostname, port } = new URL(base);
 const mesh = fs.readFileSync(meshFile);
 const kMaxMilliseconds = 50, kMaxMebibytes = 256;
 
-/// Runs a client's function on a new connection; resolves to the status of the answer, or 0 if there is none.
+/// Runs a client's function on a new connection; resolves to the status of the response, or 0 if there is none.
 function client(play) {
   return new Promise((resolve) => {
     const socket = net.connect(Number(port), hostname);
@@ -40,7 +41,7 @@ const good = (i) => client((socket) => {
   socket.write(`GET ${paths[i % paths.length]} HTTP/1.1\r\nHost: localhost\r\n\r\n`);
 });
 const postHead = 'POST /api/v1/validate HTTP/1.1\r\nHost: localhost\r\nContent-Type: model/stl\r\n';
-/// A client that sends one byte a second: every other one within the head, the others within the body.
+/// A client that sends one byte a second: every other client within the header section, the others within the body.
 const slow = (i) => client((socket) => {
   socket.write(i % 2 === 0 ? 'GET / HTTP/1.1\r\nHost: localhost\r\nX-Slow: ' : `${postHead}Content-Length: 100000\r\n\r\n`);
   return setInterval(() => socket.write('a'), 1000);

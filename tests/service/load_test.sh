@@ -1,4 +1,4 @@
-# Tests a service with 1,000 clients at once, most of them hostile.
+# Tests a service with 1,000 concurrent clients, most of them hostile.
 source "$(dirname "$0")/common.sh"
 need node nodejs
 

@@ -6,7 +6,8 @@ import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 /**
- * A closed ball: an octahedron whose triangles are divided into four, `levels` times; it has 8 * 4^levels triangles.
+ * Makes a closed ball: an octahedron whose triangles are divided into four, `levels` times; it has 8 * 4^levels
+ * triangles.
  */
 export function ball(levels, radius = 1) {
   const points = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
@@ -31,7 +32,8 @@ export function ball(levels, radius = 1) {
 }
 
 /**
- * A mesh as .glb. change(json, bin) may damage its contents, text(json) its text; without_bin omits the binary part.
+ * Encodes a mesh as .glb. change(json, bin) may damage its JSON and binary data, text(json) the JSON's text;
+ * without_bin omits the binary chunk.
  */
 export function glb({ points, triangles }, { change = () => {}, text = JSON.stringify, without_bin = false } = {}) {
   const bin = Buffer.alloc(points.length * 12 + triangles.length * 12);
@@ -103,8 +105,8 @@ export const types = {
 const small = ball(3);
 
 /**
- * By file name: the bytes to upload, and the expected result: a solid (true), no solid (false), or refused with 422
- * (null).
+ * Test files by name: the bytes to upload, and in `valid` the expected result: a solid (true), no solid (false), or
+ * refused with status 422 (null).
  */
 export const files = {
   'sphere.glb': { valid: true, bytes: () => glb(small) },

@@ -1,4 +1,4 @@
-# Tests samples/monitoring with promtool, and that its expressions use only metrics that exist.
+# Tests samples/monitoring: with promtool, and that its expressions use only metrics that exist.
 source "$(dirname "$0")/common.sh"
 need promtool prometheus
 need curl curl
@@ -14,7 +14,7 @@ done
 node "$tests/dashboard.mjs" rules "$samples/dashboard.json" >dashboard_rules.yml || failed "the dashboard is not read"
 checked "the dashboard's expressions" promtool check rules dashboard_rules.yml
 
-# The /metrics of a real flight, after requests on both of its ports.
+# Gets /metrics of a real flight, after requests on both of its ports.
 start_flight "$SOURCE/tests/bench/grammars/cave.sgm" --measure --frames 60 --keep-serving
 for ((i = 0; i < 300; ++i)); do
   curl -sS --max-time 20 "$base/api/v1/summary" -o summary && curl -sS --max-time 20 "$operations/metrics" -o metrics
@@ -24,14 +24,14 @@ done
 checked "/metrics" promtool check metrics <metrics
 checked "what is asked for is there" \
   node "$tests/dashboard.mjs" check metrics "$samples/dashboard.json" "$samples/alerts.yml"
-# Metrics that only a device has, and that the dashboard uses, must exist in the service's source.
+# Metrics that only worlds on a GPU have, and that the dashboard uses, must exist in the service's source.
 for name in sgm_gpu_memory_bytes sgm_device_lost_total; do
   grep -q "\"$name\"" "$SOURCE/runtime/tools/service/watch/metrics_text.cpp" || failed "the service has no $name"
 done
 stop_service
 
-# The check must find errors in a damaged dashboard.
-wrong() {  # wrong SED_SCRIPT WHAT
+# Negative test: the check must find errors in a damaged dashboard.
+wrong() {  # wrong SED_SCRIPT WHAT: damages the dashboard by SED_SCRIPT; the check must report WHAT
   sed "$1" "$samples/dashboard.json" >wrong.json
   cmp -s wrong.json "$samples/dashboard.json" && failed "$1 changes nothing"
   expect 1 node "$tests/dashboard.mjs" check metrics wrong.json "$samples/alerts.yml"

@@ -1,4 +1,4 @@
-// A real browser for the test of the page, which records all requests of the page and all its errors.
+// Starts a real browser for the test of the page, and records all requests of the page and all its errors.
 import { createRequire } from 'node:module';
 import path from 'node:path';
 
@@ -21,7 +21,7 @@ export async function openBrowser(node_modules) {
 }
 
 /**
- * Opens the page of `base` in a new browser context; records its requests, console errors, and violations of the
+ * Opens the page at `base` in a new browser context; records its requests, console errors, and violations of the
  * content security policy.
  */
 export async function openPage(browser, base, { before = async () => {}, at = '/', ...options } = {}) {
@@ -31,7 +31,7 @@ export async function openPage(browser, base, { before = async () => {}, at = '/
   page.on('request', (request) => noted.requests.push(request.url()));
   page.on('pageerror', (error) => noted.errors.push(String(error.stack)));
   page.on('console', (message) => {
-    // Drivers warn that reading WebGL pixels is slow; only the test does that.
+    // Ignore the driver's warning that reading WebGL pixels is slow: only the test reads them.
     const ours = message.text().includes('GPU stall due to ReadPixels') || message.text().includes('too many errors');
     if (['error', 'warning'].includes(message.type()) && !ours) noted.errors.push(message.text());
   });
@@ -44,14 +44,14 @@ export async function openPage(browser, base, { before = async () => {}, at = '/
   await before(page);
   await page.goto(base + at);
   const close = async () => {
-    // An answer that is still being replaced when the page closes is no error.
+    // Ignore errors of responses that are still being replaced when the page closes.
     await page.unrouteAll({ behavior: 'ignoreErrors' });
     await context.close();
   };
   return { page, noted, close };
 }
 
-/** Drops files on the page: [{name, bytes}]. told() is called while they are dragged over it. */
+/** Drops files on the page. files: [{name, bytes}]. told(): called while the files are dragged over the page. */
 export async function dropFiles(page, files, told = async () => {}) {
   const transfer = await page.evaluateHandle(
     (list) => {
@@ -68,7 +68,7 @@ export async function dropFiles(page, files, told = async () => {}) {
   await page.dispatchEvent('main', 'drop', { dataTransfer: transfer });
 }
 
-/** Calls send(), and resolves to the report of the upload that it causes, once the page shows that report. */
+/** Calls send(), which uploads a file; resolves to the upload's report, once the page shows it. */
 export async function uploaded(page, send) {
   const [answer] = await Promise.all([
     page.waitForResponse((response) => response.url().includes('/api/v1/validate'), { timeout: 60000 }),
@@ -81,7 +81,7 @@ export async function uploaded(page, send) {
   return id;
 }
 
-/** The number of colours in the middle of an element's picture, and a checksum for comparing pictures. */
+/** Returns the number of colours in the middle of an element's picture, and a checksum for comparing pictures. */
 export async function pictureOf(page, selector) {
   return page.evaluate((wanted) => {
     const canvas = document.querySelector(wanted),

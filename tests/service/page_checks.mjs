@@ -1,4 +1,4 @@
-// Runs checks, prints and counts their results; and other helpers of the test of the page.
+// Runs checks, prints and counts their results; also has other helpers for the test of the page.
 
 export const pause = (milliseconds) =>
   new Promise((resolve) => {
@@ -21,7 +21,7 @@ export class Checks {
     return this.check(name, a === b, a === b ? a.slice(0, 120) : `${a}, not ${b}`);
   }
 
-  /** What a scenario throws fails it, and no other. */
+  /** Runs a scenario. If it throws, it counts as failed, and later scenarios still run. */
   async scenario(name, run) {
     console.log(`-- ${name}`);
     try {
@@ -32,7 +32,7 @@ export class Checks {
   }
 }
 
-/** Calls ask() until its result is true, for `seconds` at most; resolves to the last result. */
+/** Calls ask() until its result is true, for at most `seconds` seconds; resolves to the last result. */
 export async function until(ask, seconds = 20) {
   const end = Date.now() + 1000 * seconds;
   for (;;) {
@@ -42,7 +42,7 @@ export async function until(ask, seconds = 20) {
   }
 }
 
-/** Parses Prometheus' text format: [{name, labels, value}]. */
+/** Parses Prometheus' text format into a list of {name, labels, value}. */
 export function readMetrics(text) {
   return text
     .split('\n')
@@ -56,7 +56,7 @@ export function readMetrics(text) {
     });
 }
 
-/** The sum of all series of this name with these labels; null if there are none. */
+/** Returns the sum of all series with this name and these labels; null if there are none. */
 export function sumOf(samples, name, labels) {
   const found = samples.filter(
     (one) => one.name === name && Object.entries(labels).every(([key, value]) => one.labels[key] === value),

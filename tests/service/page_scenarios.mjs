@@ -1,5 +1,5 @@
-// Tests what the page shows of worlds: charts compared with /metrics, the map compared with the HTTP interface, and
-// failures of the service.
+// Tests the page's view of worlds: its charts against /metrics, its map against the HTTP interface, and its behaviour
+// when the service fails.
 import { openPage, pictureOf } from './page_browser.mjs';
 import { pause, readMetrics, sumOf, until } from './page_checks.mjs';
 
@@ -7,7 +7,7 @@ export const isLive = (page) => page.waitForSelector('.connection[data-state="li
 const shown = (page, series) =>
   page.$eval(`[data-series="${series}"]`, (node) => (node.value === '' ? null : Number(node.value)));
 
-/** Reads from /metrics the values that the page's charts show, every 120 ms, for some seconds. */
+/** Reads from /metrics, every 120 ms for some seconds, the values that the page's charts show. */
 async function scrape(operations, seconds, world) {
   const scrapes = [],
     end = Date.now() + 1000 * seconds;
@@ -37,7 +37,7 @@ async function scrape(operations, seconds, world) {
   return scrapes;
 }
 
-/** The bounds, in milliseconds, of the histogram bucket in which this share of all updates is reached. */
+/** Returns the bounds, in milliseconds, of the histogram bucket that contains the given quantile of update times. */
 function bracket(buckets, share) {
   const wanted = share * (buckets.at(-1)?.count ?? 0),
     i = buckets.findIndex((bucket) => bucket.count >= wanted);
@@ -70,7 +70,8 @@ export async function chartsBesideMetrics(checks, page, operations) {
       `${values[key]} among ${seen.slice(-8).join(', ')}`,
     );
   }
-  // The page shows the rate over the last few seconds: it must lie within the rates over all spans of 2 s to 6 s.
+  // The page shows the rate over the last few seconds, which must lie within the range of the rates over all intervals
+  // of 2 s to 6 s.
   const rates = scrapes.flatMap((a) =>
     scrapes.filter((b) => b.time - a.time > 2).map((b) => (b.built - a.built) / (b.time - a.time)),
   );
@@ -131,7 +132,7 @@ export async function mapBesideInterface(checks, page) {
   await page.check('#map-all');
 }
 
-/** Replaces answers to the page's requests for `path` by change(json). */
+/** Replaces the JSON in responses to the page's requests for `path` by change(json). */
 const changed = (page, path, change) =>
   page.route(path, async (route) => {
     const response = await route.fetch();

@@ -2,8 +2,8 @@
 //
 //   node page_test.mjs BASE_URL OPERATIONS_URL VALID_MESH DEFECTIVE_MESH SCREENSHOT_DIR NODE_MODULES
 //
-// BASE_URL: a service that watches a streaming world, with measures. VALID_MESH, DEFECTIVE_MESH: .glb files, the second
-// with holes. NODE_MODULES: a folder with playwright-core. Exit status 0 if all checks pass.
+// BASE_URL: address of a service that monitors a streaming world and measures its chunks. VALID_MESH, DEFECTIVE_MESH:
+// .glb files; the second one has holes. NODE_MODULES: a folder with playwright-core. Exit status 0 if all checks pass.
 import fs from 'node:fs';
 import path from 'node:path';
 import { openBrowser, openPage, pictureOf } from './page_browser.mjs';
@@ -46,7 +46,9 @@ const isQuiet = (noted) => {
   checks.equal('no error in the console', noted.errors, []);
 };
 
-/** Moves the focus through the page with the Tab key; returns the ids, or other names, of the focused elements. */
+/**
+ * Moves the focus through the page with the Tab key; returns the ids, or other names, of the focused elements in order.
+ */
 async function tabThrough(page, most = 90) {
   const passed = [];
   for (let i = 0; i < most; ++i) {
@@ -62,7 +64,7 @@ async function tabThrough(page, most = 90) {
         node.tagName
       );
     });
-    if (at.includes('SG+M')) break; // the focus is on the body, past the last element
+    if (at.includes('SG+M')) break; // stop: the focus is past the last element, on the body
     passed.push(at);
   }
   return passed;
@@ -117,7 +119,7 @@ async function keyboard(id) {
     chooser = opened;
   });
   await page.focus('#upload-input');
-  // Until the browser knows of the listener, it would open its own file chooser.
+  // Wait until the browser has registered the listener; before, it would open its own file chooser.
   await page.waitForTimeout(500);
   await page.keyboard.press('Space');
   checks.check('space asks for files', await until(() => chooser?.isMultiple()));

@@ -1,4 +1,5 @@
-# Tests the page in a real browser during a flight: what it shows, its uploads, and its screenshots.
+# Tests the page in a real browser during a flight: its content, its uploads, and its screenshots.
+#
 #   page_test.sh SGM SOURCE NODE_MODULES FOLDER_FOR_PICTURES
 modules=$3 pictures=$4/page
 source "$(dirname "$0")/common.sh"
@@ -11,7 +12,7 @@ if [[ ! -d $modules/playwright-core ]]; then
 fi
 
 expect 0 "$SGM" mesh "$SOURCE/samples/grammars/sphere.sgm" --out valid.glb
-# The cave is cut at the region's border, so the mesh has holes.
+# Makes a mesh with holes: the cave is cut at the region's border.
 expect 0 "$SGM" mesh "$SOURCE/tests/bench/grammars/cave.sgm" --seed 3 --region 96,-96,32:160,-48,96 --out open.glb
 start_flight "$SOURCE/tests/bench/grammars/cave.sgm" --measure --frames 20000
 checked "the page" node "$tests/page_test.mjs" "$base" "$operations" valid.glb open.glb "$pictures" "$modules"

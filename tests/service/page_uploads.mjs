@@ -1,5 +1,5 @@
-// Tests uploads on the page: results compared with the reports of the HTTP interface, problems, hostile file names, the
-// view of the mesh.
+// Tests uploads on the page: its results against the reports of the HTTP interface, problems, hostile file names, and
+// the view of the mesh.
 import fs from 'node:fs';
 import path from 'node:path';
 import { dropFiles, openPage, pictureOf, uploaded } from './page_browser.mjs';
@@ -15,10 +15,11 @@ const fileOf = (file, name = path.basename(file)) => ({
 export const choose = (page, ...files) => page.setInputFiles('#upload-input', files);
 const surface = '#mesh-view canvas:first-child';
 
-/** Compares each measure that the page shows with that of the report. */
+/** Checks that each measure that the page shows equals the report's. */
 async function measuresAgree(checks, page, report) {
   const rows = await page.$$eval('[data-measure]', (all) => all.map((node) => [node.dataset.measure, node.value]));
-  // `flat` names triangles without an area, and edges without a bend.
+  // A key may occur twice in the report: `flat` means triangles without area, and also edges without a bend. Accept
+  // either.
   const isIts = (key, value) =>
     [report.measures[key], report.measures.histogram[key]].some((its) => value === String(its ?? ''));
   const wrong = rows.filter(([key, value]) => !isIts(key, value));

@@ -1,4 +1,4 @@
-# Tests a real Prometheus, with the configuration of samples/monitoring, that watches a real flight.
+# Tests a real Prometheus, with the configuration of samples/monitoring, which monitors a real flight.
 source "$(dirname "$0")/common.sh"
 need prometheus prometheus
 need curl curl
@@ -24,13 +24,13 @@ wait_for() {
   return 1
 }
 same() { [[ $2 == "$3" ]] || failed "$1: $2 is not $3"; }
-# now_in FILE EXPRESSION: prints the value of a JavaScript expression, where j is the JSON in the file.
+# now_in FILE EXPRESSION: prints the value of a JavaScript expression, where j is the JSON in FILE.
 now_in() {
   node -pe 'const j = JSON.parse(require("fs").readFileSync(process.argv[1])); eval(process.argv[2])' "$1" "$2"
 }
 
 start_flight "$SOURCE/tests/bench/grammars/cave.sgm" --measure --frames "$frames" --speed 60 --keep-serving --json
-# Scrapes every second instead of every 5, and alerts after 2 s without an answer.
+# Makes Prometheus scrape every second instead of every 5 s, and alert after 2 s without an answer.
 sed "s/127\.0\.0\.1:9464/${operations#http://}/; s/: 5s$/: 1s/" "$samples/prometheus.yml" >prometheus.yml
 sed '/up{job="sgm"}/,/for:/s/for: 1m/for: 2s/' "$samples/alerts.yml" >alerts.yml
 for file in prometheus.yml alerts.yml; do cmp -s $file "$samples/$file" && failed "$file was not adjusted"; done
@@ -44,14 +44,14 @@ for ((i = 0; i < 600; ++i)); do
 done
 [[ -s ready ]] || { cat prometheus.out >&2; exit 1; }
 
-# During the flight.
+# These checks run during the flight.
 wait_for 'up{job="sgm"} == 1'
 wait_for 'sum(rate(sgm_chunks_built_total{result="meshed"}[5s])) > 0'
 ball >ball.sgm
 run curl -sS --max-time 60 --data-binary @ball.sgm -H 'Content-Type: text/x-sgm' "$base/api/v1/validate?cell=0.25"
 json 'j.state === "done" && j.valid === true'
 
-# After the flight, when all chunks are made.
+# These checks run after the flight, when all chunks are complete.
 wait_for "sgm_world_update_seconds_count{world=\"cave\"} >= $frames"
 wait_for 'sgm_world_idle == 1 and on (world) sum by (world) (sgm_queue_depth) == 0'
 run curl -sS --max-time 20 "$base/api/v1/summary"
@@ -82,7 +82,7 @@ grep -a "Scrape failed" prometheus.out | grep -v "context deadline exceeded" >br
 [[ -n $(value 'avg_over_time(up{job="sgm"}[10m]) > 0.8') ]] || failed "more than one scrape in five came too late"
 [[ $(value 'max_over_time(sum(rate(sgm_chunks_built_total{result="meshed"}[5s]))[10m:1s])') != 0 ]] || failed "no rate"
 
-# All expressions of the dashboard have values.
+# All expressions of the dashboard must have values.
 count=0
 while IFS= read -r expression; do
   ask "$expression"
@@ -91,13 +91,13 @@ while IFS= read -r expression; do
 done < <(node "$tests/dashboard.mjs" expressions "$samples/dashboard.json" 30s)
 ((count > 40)) || failed "only $count expressions were asked"
 
-# All alerts are loaded without errors, and none of them fires.
+# All alerts must be loaded without errors, and none may fire.
 run curl -sS --max-time 20 "$prometheus/api/v1/rules?type=alert"
 json "j.data.groups.flatMap((g) => g.rules).length === $(grep -c -- '- alert:' "$samples/alerts.yml")"
 json 'j.data.groups.flatMap((g) => g.rules).every((r) => r.health === "ok" && r.state !== "firing")'
 
-# Prometheus' last values agree with the flight's own report; when the flight has ended, the alert for a missing service
-# fires.
+# Prometheus' last values must agree with the flight's own report; after the flight has ended, the alert for a missing
+# service must fire.
 meshed=$(value 'sgm_chunks_built_total{result="meshed"}')
 updates=$(value sgm_world_update_seconds_count)
 stop_service

@@ -1,4 +1,4 @@
-# Tests that users can start and end sgm serve and sgm fly --serve.
+# Tests starting and ending sgm serve and sgm fly --serve, as users do.
 source "$(dirname "$0")/common.sh"
 need curl curl
 
@@ -18,7 +18,7 @@ run get --data-binary @ball.glb -H 'Content-Type: model/gltf-binary' "$base/api/
 json 'j.state === "done" && j.valid === true && j.name === "ball.glb" && j.measures.watertight === true'
 run get --data-binary @ball.sgm -H 'Content-Type: text/x-sgm' "$base/api/v1/validate?cell=0.25&set=radius=2m"
 json 'j.state === "done" && j.valid === true && j.measures.volume > 30 && j.measures.volume < 35'
-# The ports are already in use.
+# If the ports are already in use, there must be an error.
 work_port=${base##*:}
 expect 4 "$SGM" serve --port "$work_port" --operations-port 0
 one_line
@@ -27,7 +27,7 @@ stop_service
 run get "$base/"
 [[ $status != 0 ]] || failed "it still listens"
 
-# A service that listens on other addresses than localhost needs a token.
+# A service that listens on other addresses than localhost must have a token.
 expect 1 "$SGM" serve --listen 0.0.0.0 --port 0 --operations-port 0
 one_line
 err_has token
@@ -56,7 +56,7 @@ run get -H 'Authorization: Bearer 0123456789abcdefXYZ' "$base/api/v1/summary"
 json 'j.version'
 stop_service
 
-# Requests are sent during a flight; its report is printed at the end.
+# Sends requests during a flight; the flight's report must be printed at its end.
 start_flight "$SOURCE/tests/bench/grammars/cave.sgm" --measure --frames 240 --keep-serving --json
 for ((i = 0; i < 300; ++i)); do
   run get "$operations/metrics"
@@ -75,7 +75,7 @@ stop_service
 cp flight.out .out
 json 'j.frames === 240'
 
-# A signal ends a flight before its last frame.
+# A signal must end a flight before its last frame.
 start_flight "$SOURCE/tests/bench/grammars/cave.sgm" --frames 3000 --keep-serving --json
 for ((i = 0; i < 300; ++i)); do
   run get "$operations/metrics"
@@ -86,7 +86,7 @@ stop_service
 grep -q 'no report' flight.err || failed "it does not say that there is no report"
 [[ ! -s flight.out ]] || failed "there is a report of a flight that was not flown"
 
-# --keep-serving and --port are refused without --serve.
+# --keep-serving and --port must be refused without --serve.
 expect 2 "$SGM" fly "$SOURCE/tests/bench/grammars/cave.sgm" --keep-serving
 expect 2 "$SGM" fly "$SOURCE/tests/bench/grammars/cave.sgm" --port 1
 finish

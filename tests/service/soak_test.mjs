@@ -1,4 +1,4 @@
-// Tests a mixed load for some time: at the end, the service must use as much memory as after its warm-up.
+// Tests a service under a mixed load for some time: at the end, it must use as much memory as after its warm-up.
 //
 //   node soak_test.mjs BASE_URL OPERATIONS_URL PID MESH SECONDS FOLDER
 //
@@ -9,11 +9,11 @@ import path from 'node:path';
 
 const [base, operations, pid, meshFile, secondsText, folder] = process.argv.slice(2);
 const seconds = Number(secondsText), mesh = fs.readFileSync(meshFile);
-/// Allowed growth of resident memory in MiB after the warm-up: allocators' use of memory varies by this much at any
+/// Allowed growth of resident memory after the warm-up, in MiB: the memory use of allocators varies by this much at any
 /// time.
 const kMaxGrowth = 6;
 const kClients = 6;
-/// Milliseconds between a client's requests, so that other processes of the machine are not slowed down.
+/// Pause between a client's requests in milliseconds, so that other processes of the machine are not slowed down.
 const kPause = 30;
 const until = Date.now() + seconds * 1000;
 let failures = 0, asked = 0;
@@ -68,7 +68,7 @@ sample();
 const timer = setInterval(sample, Math.max(1000, seconds * 5));
 await Promise.all(Array.from({ length: kClients }, (_, number) => client(number)));
 clearInterval(timer);
-// Connections of clients that have left must be closed: those kept alive end after 15 s.
+// Wait until the connections of clients that have left are closed: the service ends idle connections after 15 s.
 for (let i = 0; i < 25 && (i < 2 || samples.at(-1).files > samples[0].files + 2); ++i) {
   await new Promise((resolve) => setTimeout(resolve, 1000));
   sample();

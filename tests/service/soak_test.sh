@@ -5,7 +5,7 @@ source "$(dirname "$0")/common.sh"
 need node nodejs
 
 expect 0 "$SGM" mesh "$SOURCE/samples/grammars/sphere.sgm" --out sphere.glb
-# The world is complete after a few seconds, so that its memory is constant afterwards.
+# Use a small world, which is complete after a few seconds, so that its memory is constant afterwards.
 start_flight "$SOURCE/samples/grammars/sphere.sgm" --measure --frames 60 --keep-serving
 checked "mixed load" node "$tests/soak_test.mjs" "$base" "$operations" "$service" sphere.glb \
   "${SGM_SOAK_SECONDS:-$([[ -n ${SGM_LONG:-} ]] && echo 1800 || echo 45)}" "$plots"

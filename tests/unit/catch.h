@@ -1,8 +1,8 @@
 #pragma once
-// Catch2 2 and 3 keep their headers in different places; tests include this.
+// Includes Catch2's header, which versions 2 and 3 keep in different places.
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 #else
-#define CATCH_CONFIG_FAST_COMPILE  // a check that throws ends its test case, which is good enough here
+#define CATCH_CONFIG_FAST_COMPILE  // faster; a check that throws an exception ends its test case
 #include <catch2/catch.hpp>
 #endif

@@ -1,2 +1,2 @@
-// The only source of a program that exists to precompile headers (tests/CMakeLists.txt).
+// The only source of a program that exists to precompile headers for the tests (tests/CMakeLists.txt).
 int main() { return 0; }

@@ -1,5 +1,5 @@
 #pragma once
-// Programs for tests to start: scripts of the shell.
+// Makes programs for tests to start: shell scripts.
 
 #include <sys/stat.h>
 
@@ -10,7 +10,7 @@
 
 namespace sgm {
 
-/// In the folder, to be run; its path.
+/// Writes an executable shell script into the folder, and returns its path.
 inline std::string makeScript(const TemporaryFolder& folder, const std::string& name, const std::string& lines) {
   const std::string path = (folder.path / name).string();
   std::ofstream(path) << "#!/bin/sh\n" << lines << "\n";
@@ -24,7 +24,7 @@ inline std::string makeFile(const TemporaryFolder& folder, const std::string& na
   return path;
 }
 
-/// Whether a process runs: what has ended may still stand in the table.
+/// Whether a process runs. A process that has ended may still be in the process table, as a zombie.
 inline bool runs(int process) {
   std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
   std::string number, name, state;

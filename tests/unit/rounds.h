@@ -1,13 +1,13 @@
 #pragma once
-// The number of random cases with which a property is tested.
+// The number of random cases in the test of a property.
 
 #include <algorithm>
 #include <cstdlib>
 
 namespace sgm {
 
-/// Returns `often`, and ten times as many in the long run (tests/run.sh --long). With a sanitizer, which is slow and
-/// looks for other faults than those of the property, a fifth of that.
+/// Returns the number of cases to test: `often`, or ten times as many in the long run (tests/run.sh --long); with a
+/// sanitizer, which is slow and looks for other faults, a fifth of that.
 inline unsigned rounds(unsigned often) {
   if (std::getenv("SGM_LONG") != nullptr) often *= 10;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -21,11 +21,12 @@
 
 #include "catch.h"
 
-/// During its lifetime, the address space has room for the stacks of about `threads` more threads.
+/// During this object's lifetime, the address space has room for the stacks of about `threads` more threads, so that
+/// starting further threads fails.
 class FailingThreads {
  public:
   explicit FailingThreads(unsigned threads) {
-    // With large stacks, glibc cannot reuse a cached stack of an earlier thread.
+    // The stacks are so large that glibc does not reuse a cached stack of an earlier thread.
     constexpr size_t kStack = size_t{256} << 20;
     pthread_attr_t large;
     REQUIRE(pthread_getattr_default_np(&usual_) == 0);

@@ -1,5 +1,5 @@
 #pragma once
-// The seed of the random numbers in a test.
+// The seed of the random numbers in tests.
 
 #include <cstdio>
 #include <cstdlib>

@@ -11,7 +11,7 @@
 
 namespace sgm {
 
-/// A folder that is removed with its contents by the destructor.
+/// A folder that is removed, with its contents, by the destructor.
 struct TemporaryFolder {
   std::filesystem::path path;
 

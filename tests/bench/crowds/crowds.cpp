@@ -1,14 +1,16 @@
 // Benchmarks with many viewers, many worlds, many edits, small budgets and long flights, through the C interface alone.
-// streaming.sh prints these rows together with flights of `sgm fly`. Grid cells of 0.5 m, two threads: one worker and
-// the engine's thread.
+// streaming.sh prints these rows together with flights of `sgm fly`. All rows use grid cells of 0.5 m and two threads:
+// one worker and the engine's thread.
 //
 //   crowds GRAMMAR ROW [--seconds S] [--count N] [--rate HZ] [--speed M_S] [--spread M]
 //
+// The rows, and what each measures:
 //   walkers   N viewers at 2 m/s: the time until all of them see cells of at most 4 m within 32 m
-//   worlds    N worlds with a viewer each, updated HZ times a second: chunks that were meshed and used
-//   fast      4 viewers at 5, 30, 100 and 300 m/s, and 80 edits a second: chunks that were meshed and used
-//   budget    two seconds with 65,536 bytes an update, then 1 MiB: the time until level 0 is drawn, also without limit
-//   walk      a viewer that walks and digs: colliders, and those that replace one with the same bytes
+//   worlds    N worlds with one viewer each, updated HZ times a second: numbers of chunks meshed and used
+//   fast      4 viewers at 5, 30, 100 and 300 m/s, and 80 edits a second: numbers of chunks meshed and used
+//   budget    65,536 bytes per update for two seconds, then 1 MiB: the time until level 0 is drawn, compared with the
+//             time without a limit
+//   walk      a viewer that walks and digs: number of new colliders, and of those equal to the one that they replace
 //   far       a flight over new ground: resident memory after a sixth of the flight, and its maximum afterwards
 //
 // Prints one line of JSON.
@@ -32,14 +34,15 @@ namespace crowds {
 namespace {
 
 constexpr uint64_t kBudget = uint64_t{1} << 20;
-// In metres: a mover counts as served if all cells drawn within kDrawnRadius are at most kDrawnCell wide.
+// A viewer counts as served if all chunks drawn within kDrawnRadius have grid cells of at most kDrawnCell; both in
+// metres.
 constexpr double kDrawnRadius = 32, kDrawnCell = 4;
 
 struct Options {
   std::string grammar, row;
   double seconds = 10, rate = 125, speed = 60;
   unsigned count = 0;
-  int32_t spread = 1000;  ///< maximum metres from the origin on each axis
+  int32_t spread = 1000;  ///< maximum distance of the viewers from the origin on each axis, in metres
 };
 
 void walkers(const Options& options) {
@@ -130,7 +133,7 @@ void fast(const Options& options) {
     const auto isDrawn = [&](const Mover& mover) {
       return engine.isDrawn(mover.at(seconds), kDrawnRadius, kDrawnCell);
     };
-    // Frames are counted for the slowest mover.
+    // Count the frames in which the slowest viewer is served.
     if (!isDrawn(movers[0])) return true;
     ++drawn_frames;
     if (first_drawn < 0) first_drawn = seconds;

@@ -15,7 +15,7 @@ uint64_t hashOf(const void* bytes, size_t count, uint64_t hash) {
   return hash;
 }
 
-/// The hash of all data of a collider that a physics engine reads.
+/// Returns a hash of all data of a collider that a physics engine reads.
 uint64_t hashOf(const sgm_collider* collider) {
   sgm_error error = SGM_ERROR_INIT;
   sgm_collider_view view = SGM_COLLIDER_VIEW_INIT;

@@ -1,5 +1,6 @@
 #pragma once
-// A small engine for one streamed world, through the C interface alone: it knows only what the world's events report.
+// A minimal engine with one streamed world, through the C interface alone: it knows only what the world's events
+// report.
 
 #include <sgm/sgm.h>
 
@@ -29,13 +30,13 @@ using FieldOwner = Owner<sgm_field, sgm_field_destroy>;
 using WorldOwner = Owner<sgm_world, sgm_world_destroy>;
 using MeshOwner = Owner<sgm_mesh, sgm_mesh_release>;
 
-/// If a call has failed, prints the error's message and ends the program.
+/// If `result` is an error, prints its message and ends the program.
 void must(sgm_result result, const sgm_error& error);
 
 using Key = std::tuple<int32_t, int32_t, int32_t, int32_t>;  ///< level, x, y, z
 using Place = std::array<double, 3>;                         ///< a position in metres
 
-/// Distance in metres from a place to a chunk's box; 0 inside the box.
+/// Returns the distance in metres from a position to a chunk's box; 0 inside the box.
 double distanceTo(const Key& key, const Place& place, double finest_cell_m);
 
 class Engine {
@@ -43,23 +44,25 @@ class Engine {
   Engine(sgm_field* field, const sgm_world_desc& desc);
 
   void setViewers(std::span<const sgm_viewer> viewers);
-  /// One frame: an update, then all of its events.
+  /// Runs one frame: updates the world, then handles all events. max_bytes: limit of mesh data in this frame.
   void frame(uint64_t max_bytes);
   sgm_world_stats stats() const;
   sgm_world_times times() const;
   sgm_world* world() const { return world_.get(); }
 
-  /// Whether something is drawn within `radius_m` of a place, and all of it has grid cells of at most `cell_m`. No
-  /// events report chunks without triangles, so only the presence of a coarser chunk shows that a finer one is missing.
+  /// True if at least one chunk is drawn within `radius_m` of a position, and all such chunks have grid cells of at
+  /// most `cell_m`. Chunks without triangles cause no events, so a missing fine chunk shows only by the coarser chunk
+  /// in its place.
   bool isDrawn(const Place& place, double radius_m, double cell_m) const;
   size_t countDrawn(int32_t level) const;
 
   struct Counts {
     uint64_t failed = 0;
-    uint64_t peak_bytes = 0;       ///< maximum number of bytes handed over in one frame
-    uint64_t colliders = 0;        ///< number of colliders handed over
-    uint64_t equal_colliders = 0;  ///< number of colliders that replaced one with the same bytes
-    uint64_t max_colliders = 0;    ///< maximum number of colliders handed over in one frame
+    uint64_t peak_bytes = 0;       ///< maximum number of mesh bytes received in one frame
+    uint64_t colliders = 0;        ///< number of colliders received
+    uint64_t equal_colliders = 0;  ///< number of received colliders with the same bytes as the collider that they
+                                   ///< replaced
+    uint64_t max_colliders = 0;    ///< maximum number of colliders received in one frame
   };
   const Counts& counts() const { return counts_; }
 
@@ -70,9 +73,9 @@ class Engine {
   double finest_cell_m_;
   std::map<Key, MeshOwner> meshes_;
   std::set<Key> drawn_;
-  std::map<Key, uint64_t> colliders_;  ///< a hash of each collider's bytes
+  std::map<Key, uint64_t> colliders_;  ///< for each chunk with a collider: hash of the collider's bytes
   Counts counts_;
-  uint64_t bytes_ = 0, frame_colliders_ = 0;  ///< of the current frame
+  uint64_t bytes_ = 0, frame_colliders_ = 0;  ///< mesh bytes and colliders received in the current frame
 };
 
 }  // namespace crowds

@@ -1,5 +1,6 @@
 #pragma once
-// Code that the benchmark's rows share: the ground's field, places in its void, moving viewers, and counts of jobs.
+// Code shared by the rows of the benchmark: the field of the ground, positions in the void, moving viewers, and counts
+// of jobs.
 
 #include <algorithm>
 #include <atomic>
@@ -23,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 
 inline constexpr uint32_t kSeed = 1;
 
-/// Total time on all threads of profiler zones with one name.
+/// The total time, on all threads, of profiler zones with a given name.
 struct ZoneTimes {
   static constexpr const char* kPlan = "sgm.plan";
   std::atomic<uint64_t> plan_ns{0};
@@ -86,7 +87,7 @@ inline sgm_world_desc worldDesc() {
   return desc;
 }
 
-/// Places in the void with two metres of void around them, within `reach_m` metres of the origin.
+/// Returns positions within `reach_m` metres of the origin that have two metres of void around them.
 inline std::vector<Place> placesInVoid(const Ground& ground, size_t count, int32_t reach_m) {
   std::mt19937 random(kSeed);
   std::vector<Place> places;
@@ -113,7 +114,7 @@ inline std::vector<Place> placesInVoid(const Ground& ground, size_t count, int32
   return places;
 }
 
-/// A viewer that moves straight ahead in a horizontal plane.
+/// A viewer that moves horizontally in a straight line.
 struct Mover {
   Place from{};
   double speed = 0, turn = 0;  ///< m/s, radians
@@ -131,7 +132,7 @@ struct Mover {
   }
 };
 
-/// Calls frame(seconds) `rate` times a second. If it is late, the missed frames are skipped.
+/// Calls frame(seconds) `rate` times a second until it returns false. Frames that are already late are skipped.
 inline void paced(double seconds, double rate, const std::function<bool(double)>& frame) {
   const Clock::time_point start = Clock::now();
   const auto now = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
@@ -152,7 +153,7 @@ inline void dig(const Engine& engine, const Place& place, double radius_m) {
   must(sgm_world_edit(engine.world(), &brush, nullptr, &error), error);
 }
 
-/// Numbers and times of the finished jobs of all worlds.
+/// Numbers and times of all worlds' finished jobs.
 struct Work {
   uint64_t meshed = 0, in_vain = 0, plans = 0, seams = 0;
   double mesh_seconds = 0, longest_update = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The output that every program of the benchmark prints: one line of key=value pairs.
+// Prints the results of a benchmark program as one line of key=value pairs, the format that speed.mjs parses.
 
 #include <cstdio>
 

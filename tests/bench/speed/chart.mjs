@@ -9,8 +9,9 @@ function page(width, height, body) {
     `font-size="12" fill="#111"><rect width="100%" height="100%" fill="#fff"/>${body}</svg>\n`;
 }
 
-/// rows: { name, reached, asked, unit, atMost }. A bar's length is `reached` relative to the target `asked`, inverted
-/// where the target is an upper bound (atMost): at 1, the dashed line, the target is met.
+/// Draws a bar chart. rows: { name, reached, asked, unit, atMost }. A bar's length is `reached` divided by the target
+/// `asked`, or the inverse if the target is an upper bound (atMost). A bar that reaches the dashed line at 1 meets its
+/// target.
 export function bars(title, rows) {
   const left = 500, unit = 150, height = 24, top = 44, most = 3.2;
   const drawn = rows.map((row, i) => {
@@ -68,7 +69,7 @@ export function curves(panels) {
   return page(columns * (wide + 24), Math.ceil(panels.length / columns) * (tall + 24), drawn.join(''));
 }
 
-/// The slope of log y over log x, by least squares: the exponent of a power law through the points.
+/// Returns the slope of log y over log x by least squares: the exponent of a power law through the points.
 export function exponent(points) {
   const x = points.map((p) => Math.log(p[0])), y = points.map((p) => Math.log(p[1]));
   const mean = (v) => v.reduce((a, b) => a + b, 0) / v.length;

@@ -1,6 +1,7 @@
 #pragma once
-// Reads and writes samples on a grid as a file, so that every program meshes the same samples. The file has four int32
-// (numbers of samples on x, y, z; 0), then float32 values in units of a cell, x fastest, negative inside the solid.
+// Reads and writes grids of samples as files, so that every program meshes the same samples. A file begins with four
+// int32: the numbers of samples along x, y and z, and 0. Then follow the float32 samples in units of a cell, x fastest,
+// negative inside the solid.
 
 #include <cstdint>
 #include <fstream>

@@ -1,10 +1,10 @@
-// Measures what this machine can do at most, in the same run as the benchmarks, so that their times can be compared
-// with it.
+// Measures lower bounds of time on this machine, in the same run as the benchmarks, so that their times can be compared
+// with these bounds.
 //
-//   sgm_bench_machine signs GRID THREADS RUNS     a pass that reads every sample's sign
-//   sgm_bench_machine output BYTES THREADS RUNS   writing BYTES bytes once
-//   sgm_bench_machine float THREADS RUNS          products and sums without fused operations, as the contract requires
-//   sgm_bench_machine brute CELLS THREADS RUNS    every blob at every sample of the scene blobs
+//   sgm_bench_machine signs GRID THREADS RUNS     reads every sample's sign in one pass
+//   sgm_bench_machine output BYTES THREADS RUNS   writes BYTES bytes once
+//   sgm_bench_machine float THREADS RUNS          computes products and sums, without fused multiply-add
+//   sgm_bench_machine brute CELLS THREADS RUNS    evaluates every blob at every sample of the scene `blobs`
 
 #include <atomic>
 #include <bit>
@@ -23,7 +23,7 @@ namespace {
 
 using namespace bench;
 
-/// Calls work(first, last) for equal parts of 0..count, each on a thread of its own, among them the caller's.
+/// Divides 0..count into equal parts and calls work(first, last) for each on a thread of its own; one is the caller's.
 template <class Work>
 void shared(int threads, size_t count, const Work& work) {
   std::vector<std::thread> others;
@@ -53,7 +53,7 @@ Times output(size_t bytes, int threads, int runs) {
   });
 }
 
-constexpr size_t kChains = 128;  // number of independent chains of operations, so that no operation waits for another
+constexpr size_t kChains = 128;  // number of independent chains of operations, so that latency does not limit the rate
 constexpr size_t kRounds = 200000;
 
 Times floats(int threads, int runs) {
@@ -71,8 +71,9 @@ Times floats(int threads, int runs) {
   });
 }
 
-/// The scene blobs as a program written for it would compute it: the sum of (1 - d^2 / R^2)^3 over the blobs within R =
-/// 2 r, so that a single blob's surface lies at r. Centres are relative to the cube's middle, in units of a cell.
+/// The scene `blobs` for an evaluator written by hand: the field is the sum of (1 - d^2 / R^2)^3 over all blobs within
+/// R = 2 r, so that a single blob's surface has the radius r. Centres are relative to the cube's middle, in units of a
+/// cell.
 struct Blobs {
   std::vector<float> x, y, z, scale;  ///< scale: 1 / R^2
 };
@@ -90,7 +91,7 @@ Blobs blobsIn(int cells) {
   return blobs;
 }
 
-/// Computes N samples of a row, from x on. They stay in registers while the loop runs over the blobs.
+/// Computes N consecutive samples of a row, from x on. The N sums stay in registers during the loop over the blobs.
 template <size_t N>
 void samplesOf(const Blobs& blobs, float x, float y, float z, float* out) {
   float place[N], sum[N];

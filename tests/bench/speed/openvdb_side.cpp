@@ -28,8 +28,8 @@ int main(int argc, char** argv) try {
   bench::Grid samples = bench::readGrid(argv[1]);
   const openvdb::CoordBBox box({0, 0, 0}, {samples.size[0] - 1, samples.size[1] - 1, samples.size[2] - 1});
   openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(box, samples.values.data());
-  // Only a narrow band around the surface is stored, as in OpenVDB's own level sets: three cells on each side; values
-  // beyond it are clamped, which keeps their sign.
+  // Store only a narrow band of three cells on each side of the surface, as OpenVDB's own level sets do. Values beyond
+  // it are clamped, which keeps their sign.
   constexpr float kBand = 3.0f;
   for (float& value : samples.values) value = std::min(std::max(value, -kBand), kBand);
   openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(kBand);

@@ -1,13 +1,13 @@
-// Benchmarks our library, one stage in each process; speed.mjs runs it together with the other programs. See
+// Benchmarks one stage of our library per process. speed.mjs runs this program and those of the other libraries. See
 // ../README.md.
 //
-//   sgm_bench_ours write SCENE CELLS FILE            writes the scene's samples, for all programs
-//   sgm_bench_ours grid FILE THREADS RUNS            sgm_surface_from_grid, with normals
-//   sgm_bench_ours grid-plain FILE THREADS RUNS      the same without normals
-//   sgm_bench_ours mesh SCENE CELLS THREADS RUNS     sgm_mesh_chunks, with cells derived beforehand
-//   sgm_bench_ours region SCENE CELLS THREADS RUNS   sgm_surface_from_region: one welded mesh
-//   sgm_bench_ours chunk SCENE CELLS RUNS LEVEL      surface chunks one by one, from derived cells to meshes
-//   sgm_bench_ours grid-chunks FILE RUNS             blocks of 32^3 cells one by one, in cache, without normals
+//   sgm_bench_ours write SCENE CELLS FILE            writes the scene's samples to a file, which all programs read
+//   sgm_bench_ours grid FILE THREADS RUNS            measures sgm_surface_from_grid, with normals
+//   sgm_bench_ours grid-plain FILE THREADS RUNS      measures sgm_surface_from_grid, without normals
+//   sgm_bench_ours mesh SCENE CELLS THREADS RUNS     measures sgm_mesh_chunks, with cells derived beforehand
+//   sgm_bench_ours region SCENE CELLS THREADS RUNS   measures sgm_surface_from_region, which makes one welded mesh
+//   sgm_bench_ours chunk SCENE CELLS RUNS LEVEL      meshes chunks with a surface one by one, from derived cells
+//   sgm_bench_ours grid-chunks FILE RUNS             meshes blocks of 32^3 cells in cache one by one, without normals
 //
 // SGM_BENCH_SET=avx2 (or sse4.2) keeps the library from using wider vectors.
 
@@ -27,7 +27,7 @@ namespace {
 
 using namespace bench;
 
-/// Limits the vector width as if this processor had no wider one. The library queries the same copy of Highway.
+/// Makes Highway behave as if this processor had no wider vectors. The library uses the same copy of Highway.
 void limitVectors() {
   const char* set = std::getenv("SGM_BENCH_SET");
   if (set == nullptr) return;
@@ -39,8 +39,9 @@ void limitVectors() {
   throw std::runtime_error(std::string("SGM_BENCH_SET knows no ") + set + " here");
 }
 
-/// Number of grid squares whose samples have equal signs only across the diagonals. Meshing algorithms connect these in
-/// different ways, so that the genus of their surfaces may differ by one for each.
+/// Returns the number of ambiguous faces: grid squares in which diagonally opposite samples have equal signs, and the
+/// others the opposite sign. Meshing algorithms connect these differently, so the genus of their surfaces may differ by
+/// one for each.
 size_t ambiguousFaces(const Grid& grid) {
   size_t count = 0;
   const auto nx = static_cast<size_t>(grid.size[0]), ny = static_cast<size_t>(grid.size[1]);
@@ -94,7 +95,7 @@ int regionStage(const Scene& scene, int cells, int threads, int runs) {
   return 0;
 }
 
-/// Prints the median over chunks of each run. `chunks()` returns the milliseconds of each chunk.
+/// Prints the median time per chunk of each run. chunks(): returns the milliseconds of each chunk.
 template <class Chunks>
 int medianChunk(const char* stage, Ours& ours, int runs, const Chunks& chunks) {
   chunks();

@@ -203,7 +203,7 @@ std::vector<double> Ours::gridChunks(const Grid& grid) {
   const int32_t count = (grid.size[0] - 1) / SGM_CHUNK_CELLS;
   for (int32_t i = 0; i < count * count * count; ++i) {
     const int32_t at[3] = {i % count, i / count % count, i / count / count};
-    // The samples are copied, so that they lie in the cache like freshly evaluated ones.
+    // Copy the block's samples, so that they are in the cache, as freshly evaluated samples are.
     block.clear();
     for (int32_t z = 0; z <= SGM_CHUNK_CELLS; ++z) {
       for (int32_t y = 0; y <= SGM_CHUNK_CELLS; ++y) {

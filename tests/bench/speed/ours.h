@@ -1,5 +1,5 @@
 #pragma once
-// The benchmark of our library, through the C interface alone.
+// Our library's side of the benchmark, through the C interface alone.
 
 #include <memory>
 #include <string>
@@ -20,25 +20,25 @@ namespace bench {
 /// A runtime with one scene. Every function throws std::runtime_error with the library's message if a call fails.
 class Ours {
  public:
-  /// A runtime without a scene, for meshing grids only.
+  /// Makes a runtime without a scene, for meshing grids only.
   explicit Ours(int threads);
   Ours(const Scene& scene, int cells, int threads);
   ~Ours();
   Ours(const Ours&) = delete;
   Ours& operator=(const Ours&) = delete;
 
-  std::string device() const;  ///< name of the instruction set in use
+  std::string device() const;  ///< name of the instruction set that the library uses
 
   /// Evaluates and meshes every chunk of the cube, as an engine would request them. Returns the number of triangles.
   size_t meshChunks();
   /// Meshes the chunks of a level one by one, from derived cells to packed meshes. Returns the milliseconds of each
-  /// chunk that has a surface. At each level, the number of chunks on an axis is that of the cube at level 0.
+  /// chunk that has a surface. Every level has as many chunks along an axis as the cube has at level 0.
   std::vector<double> surfaceChunks(int level);
   /// Evaluates and meshes the cube as one welded mesh. Returns the number of triangles.
   size_t meshRegion();
-  /// The cube's surface as one welded mesh, in units of a cell from the cube's lowest corner.
+  /// Returns the cube's surface as one welded mesh, in units of a cell, relative to the cube's lowest corner.
   Mesh welded();
-  /// Samples the scene's field at the corners of all cells; values are in units of a cell.
+  /// Samples the scene's field at the corners of all cells. Values are distances in units of a cell.
   Grid sample();
   /// Meshes a grid of samples; normals: also computes normals from its gradient. Returns the number of triangles.
   size_t meshGrid(const Grid& grid, bool normals);

@@ -13,9 +13,11 @@ namespace bench {
 namespace {
 
 constexpr int32_t kUnits = 1024;
-constexpr int32_t kEdge = 64 * kUnits;  // edge of the cube that the synthetic scenes fill, centred on the origin
+constexpr int32_t kEdge = 64 * kUnits;  // edge of the cube that the synthetic scenes fill, in units; the cube is
+                                        // centred on the origin
 
-// A counter-based random number (the finaliser of splitmix64), so that scenes do not depend on any library's generator.
+// Returns a counter-based random number (the finaliser of splitmix64), so that scenes do not depend on any library's
+// generator.
 uint64_t draw(uint64_t counter) {
   uint64_t x = counter * 0x9E3779B97F4A7C15u;
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -26,7 +28,7 @@ int32_t within(uint64_t counter, int32_t lo, int32_t hi) {
   return lo + static_cast<int32_t>(draw(counter) % static_cast<uint64_t>(hi - lo + 1));
 }
 
-// Writes units as metres, exactly: 1/1024 has ten decimals.
+// Formats a length in units as metres, exactly: 1/1024 has ten decimals.
 std::string metres(int32_t units) {
   char text[40];
   std::snprintf(text, sizeof text, "%.10fm", units / double{kUnits});
@@ -80,7 +82,7 @@ Scene makeScene(const std::string& name, int cells, const std::string& cave_path
   if (!power && !(name == "world" && cells >= 32 && cells % 32 == 0))
     throw std::runtime_error("no cube of " + name + " has " + std::to_string(cells) +
                              " cells on an edge; give a power of two from 32 to 2048 (of world a multiple of 32)");
-  // The cave has a fixed size of 128 m with a chamber: at 256 cells, a cell is half a metre.
+  // The cave has a fixed size of 128 m and contains a chamber; with 256 cells along an edge, a cell is 0.5 m.
   if (name == "cave") return {name, readText(cave_path), 128 * kUnits / cells, {kEdge, kEdge, kEdge}};
   if (name == "world") return {name, readText(cave_path), kUnits / 2, {kEdge, kEdge, kEdge}};
   std::string body;

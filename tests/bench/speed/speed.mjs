@@ -1,15 +1,16 @@
-// Measures how fast we are relative to what a user would choose instead, and how our time grows with the input. Each
-// competitor is a separate process on the same samples; a round runs all of them one after the other, and the result is
-// the median over the rounds of the ratio within a round. A time counts only if the meshes are the same surface. See
-// ../README.md.
+// Compares the speed of our library with that of other libraries, and measures how our time grows with the input. Each
+// library runs in a separate process on the same samples. A round runs all processes one after the other; the result is
+// the median over the rounds of the ratio of times within a round. A time counts only if the meshes are the same
+// surface. See ../README.md.
 //
 //   node tests/bench/speed/speed.mjs BIN OUT [--cells 256] [--runs 7] [--rounds 3] [--threads 1,2] [--no-growth]
 //                      [--as-installed]
 //
-//   BIN   the folder of sgm_bench_ours and the other sides     OUT   where speed.csv, speed.json and the charts go
+//   BIN   folder of sgm_bench_ours and the other programs
+//   OUT   folder for speed.csv, speed.json and the charts
 //
-// Exit status 1 if a mesh of ours is wrong. A competitor that is not installed is reported with its package, and left
-// out.
+// Exit status 1 if a mesh of our library is wrong. A library that is not installed is left out, and its package is
+// reported.
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -41,10 +42,10 @@ function fail(message) {
   process.exit(2);
 }
 
-const measured = []; // every parsed answer of a program, with its scene and side
+const measured = []; // every parsed output line of a program, with the scene and the library's name
 let wrong = 0;
 
-/// Runs a competitor's program; returns the key=value words that it prints as an object, with numbers as numbers.
+/// Runs a library's program. Returns the key=value words that it prints as an object, with numbers as numbers.
 function run(program, args, env = {}) {
   const done = spawnSync(program, args.map(String), { encoding: 'utf8', env: { ...process.env, ...env }, maxBuffer: 1 << 26 });
   if (done.status !== 0) fail(`${program} ${args.join(' ')}: ${done.error?.message ?? done.stderr.trim()}`);
@@ -60,17 +61,17 @@ const ours = (set, ...args) => {
   if (set && answer.set !== set) fail(`sgm_bench_ours was asked for ${set} and took ${answer.set}`);
   return answer;
 };
-// Our runtime keeps freed blocks and requests large pages, so malloc is set to do the same for competitors: on machines
-// where fresh pages are slow, otherwise only page faults would be timed. With --as-installed, malloc keeps its
-// defaults.
+// Our runtime keeps freed blocks and requests large pages, so malloc is set to do the same for the other libraries: on
+// machines where new pages are slow, their times would otherwise be mostly page faults. With --as-installed, malloc
+// keeps its defaults.
 const keeping = options.keep
   ? { GLIBC_TUNABLES: 'glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=4294967296:glibc.malloc.hugetlb=1' }
   : {};
 const rival = (program, args) => run(program, args, keeping);
 const machine = (...args) => rival(path.join(bin, 'sgm_bench_machine'), args);
 
-/// The numbers of the processors that this process may run on, in the order in which the programs pin their threads to
-/// them.
+/// Returns the numbers of the processors that this process may use, in the order in which the programs pin their
+/// threads to them.
 function allowedProcessors() {
   const list = /^Cpus_allowed_list:\s*(.*)$/m.exec(fs.readFileSync('/proc/self/status', 'utf8'))[1];
   return list.split(',').flatMap((part) => {
@@ -115,9 +116,10 @@ const note = (what, answer) => {
   return answer;
 };
 
-/// Checks what must hold for our mesh before its time means anything. The Euler characteristic may differ only by the
-/// number of ambiguous faces, whose diagonals each method chooses in its own way. Areas are compared only where cells
-/// are small relative to the features: on coarse grids, OpenVDB's dual surface cuts corners off.
+/// Checks that our mesh is the same surface as another library's, since only then can their times be compared. The
+/// Euler characteristic may differ only by the number of ambiguous faces, whose diagonals each method chooses in its
+/// own way. Areas are compared only if cells are small relative to the features: on coarse grids, OpenVDB's dual
+/// surface cuts off corners.
 function compare(scene, mine, peer, name) {
   if (options.cells >= 256 && Math.abs(mine.area - peer.area) > 0.01 * peer.area) tell(`${scene}: area ${mine.area} is not within 1 % of ${peer.area} of ${name}`);
   const handles = Math.abs(mine.euler - peer.euler);
@@ -126,7 +128,7 @@ function compare(scene, mine, peer, name) {
   return handles === 0 ? 'same genus' : `Euler ${mine.euler} and ${peer.euler}, ${mine.ambiguous} ambiguous faces`;
 }
 
-const asked = []; // rows of the table of targets
+const asked = []; // the rows of the table of targets, filled below
 const ask = (name, reached, what) => {
   asked.push({ name, reached, unit: '', ...what });
 };
@@ -217,8 +219,8 @@ ask('a surface chunk of cave.sgm, from cells to packed mesh',
 ask('10,000 spheres by 1,000 at equal filling',
   median(rounds(() => mesh('spheres:10000', options.cells, 1).median / mesh('spheres:1000', options.cells, 1).median)),
   { asked: 3, aim: 1.5, unit: '×', atMost: true });
-// The speed of processors of a shared machine depends on the load of their neighbours. So two threads are compared with
-// the sum of what each of their two processors reaches with one thread.
+// On a shared machine, the speed of a processor depends on the load of its neighbours. So the rate with two threads is
+// compared with the sum of the rates that the same two processors reach with one thread each.
 const processors = allowedProcessors();
 if (threadCounts.includes(1) && threadCounts.includes(2) && processors.length >= 2) {
   const scaling = (name, scene, stage) => ask(name, median(rounds(() => {

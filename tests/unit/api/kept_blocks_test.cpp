@@ -23,8 +23,8 @@ struct Held {
   unsigned char mark;
 };
 
-/// Allocates and frees blocks of all sizes; each is marked at its ends and in its middle. Returns the number of
-/// overwritten marks.
+/// Allocates and frees blocks of all sizes. Each block is marked at its ends and in its middle. Returns the number of
+/// marks that were overwritten.
 size_t useBlocks(KeptBlocks& blocks, uint32_t seed, unsigned steps) {
   std::mt19937 random(seed);
   std::vector<Held> held;
@@ -67,7 +67,7 @@ TEST_CASE("a block that came back is given out again for nearly the same size") 
   CHECK(third != second);
   blocks.release(second, 990'000, 8);
   blocks.release(third, 990'000, 8);
-  // Sizes are rounded up to eighths of a power of two: this one is in the next class.
+  // Sizes are rounded up to eighths of a power of two, so 1,060,000 bytes need a larger size class than 990,000 bytes.
   void* larger = blocks.allocate(1'060'000, 16);
   CHECK(larger != first);
   CHECK(larger != third);
@@ -94,8 +94,8 @@ TEST_CASE("threads may take and give blocks at one time", "[threads]") {
 
 TEST_CASE("what is kept stays below its bound") {
   KeptBlocks blocks;
-  // Allocates twice as many bytes as may be cached, in blocks of two sizes; each is written to, so that a missing
-  // release shows in the resident memory.
+  // Allocates twice as many bytes as may be cached, in blocks of two sizes. Each block is written to, so that memory
+  // that is not released shows as resident.
   std::vector<void*> held;
   constexpr size_t kSize = size_t{1} << 22;
   for (size_t bytes = 0; bytes < 2 * KeptBlocks::kMost; bytes += kSize) held.push_back(blocks.allocate(kSize, 64));
@@ -134,7 +134,7 @@ TEST_CASE("where the system has no memory left, all that is kept goes before any
     void* half = blocks.allocate(kHalf, 64);
     REQUIRE(half != nullptr);
     void* other = blocks.allocate(kHalf, 64);
-    CHECK(blocks.allocate(kMore, 64) == nullptr);  // both blocks are in use, so no cached one can be released
+    CHECK(blocks.allocate(kMore, 64) == nullptr);  // both blocks are in use, so neither can be released
     blocks.release(half, kHalf, 64);
     CHECK(blocks.bytes() == kHalf);
     void* more = blocks.allocate(kMore, 64);
@@ -142,7 +142,7 @@ TEST_CASE("where the system has no memory left, all that is kept goes before any
     CHECK(blocks.bytes() == 0);
     blocks.release(other, kHalf, 64);
     blocks.release(more, kMore, 64);
-    // An allocation of a size that is never cached also releases cached blocks.
+    // Cached blocks are released to make room, even for an allocation of a size that is never cached.
     CHECK(blocks.allocate(kUnkept * 2, 64) == nullptr);
     void* whole = blocks.allocate(10000, 64);
     CHECK(whole != nullptr);

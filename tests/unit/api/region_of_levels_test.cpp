@@ -1,4 +1,4 @@
-// Tests regions with chunks of several levels, as pictures use them.
+// Tests regions whose chunks have several levels of detail, as pictures use them.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ using namespace sgm;
 
 namespace {
 
-/// Number of edges with one triangle that do not lie in the faces of the region.
+/// Number of edges with only one triangle that do not lie in the outer faces of the region.
 size_t holesIn(const WorldMesh& mesh, const IntBox& extent) {
   std::vector<std::pair<uint32_t, uint32_t>> edges;
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -55,7 +55,7 @@ TEST_CASE("a region of several levels has no open edge inside, plain and sharp",
     PictureView view;
     for (size_t axis = 0; axis < 3; ++axis)
       view.position[axis] = static_cast<double>(hall.lo[0] + static_cast<int32_t>(random() % (48 * 1024)));
-    view.half_angle = 3.2;  // a view in all directions
+    view.half_angle = 3.2;  // radians, more than pi: the view covers all directions
     view.cell_angle = 0.012 + 0.003 * round;
     const Octree tree = viewTarget(view, hall, kTop, world.cellAt(0));
     const bool sharp = round % 2 == 1;
@@ -67,7 +67,8 @@ TEST_CASE("a region of several levels has no open edge inside, plain and sharp",
     INFO(describe(report));
     CHECK(report.manifold());
 
-    // Each vertex has the materials of its own level, as if its chunk were unwrapped alone.
+    // The callback returns the octree leaf that contains a place; unwrapRegion() uses it to take the materials of each
+    // vertex from its own level of detail.
     std::vector<bool> levels(kTop + 1);
     const Result<TexturedRegion> textured = unwrapRegion(
         world, *jobs, region->mesh,

@@ -11,7 +11,7 @@
 
 namespace sgm::asset {
 
-/// Collects triangles that share no points, as some modelling tools export them.
+/// Makes meshes in which triangles share no points, as some modelling tools export them.
 class MeshMaker {
  public:
   void triangle(Point a, Point b, Point c, uint32_t material = kNoMaterial) {
@@ -75,10 +75,11 @@ class MeshMaker {
   }
 };
 
-/// The polyhedron of a mesh, which must be the surface of a solid.
+/// Makes the polyhedron of a mesh, which must be the surface of a solid.
 inline Polyhedron solidOf(const TriangleMesh& mesh) { return *makePolyhedron(mesh); }
 
-/// A bay of an arcade, 3 m wide, 4 m high, 1 m deep: a wall with an arched opening of `chords` chords.
+/// A bay of an arcade, 3 m wide, 4 m high and 1 m deep: a wall with an opening whose arch has `chords` straight
+/// segments.
 inline TriangleMesh archedBay(size_t chords) {
   std::vector<std::array<double, 2>> outline{{0, 0}, {0.5, 0}};
   constexpr double kHalfTurn = 3.14159265358979323846;
@@ -111,7 +112,7 @@ inline TriangleMesh gabledHouse() {
 
 /// A wall with windows that pass through it, as one mesh.
 inline TriangleMesh windowedWall(size_t columns, size_t rows) {
-  // Front and back are grids of quads; each hole has four reveals (inner sides).
+  // The front and the back are grids of quads; each hole has four reveals (inner sides).
   MeshMaker maker;
   const double depth = 0.5;
   std::vector<double> xs{0}, ys{0};

@@ -1,5 +1,5 @@
-// Tests the division of polyhedra into convex pieces: every point inside lies strictly inside a piece, no point outside
-// does.
+// Tests the division of polyhedra into convex pieces: every point inside the solid lies strictly inside a piece, and no
+// point outside the solid does.
 
 #include "asset/convex_cover.h"
 
@@ -16,7 +16,8 @@ using namespace sgm::asset;
 
 namespace {
 
-/// The minimum over the pieces of a point's distance from the piece's sides; negative strictly inside a piece.
+/// Minimum, over the pieces, of the greatest signed distance from a piece's planes: negative if the point is strictly
+/// inside a piece.
 double fieldAt(const std::vector<ConvexPiece>& pieces, Point p) {
   double least = 1e9;
   for (const ConvexPiece& piece : pieces) {
@@ -27,8 +28,8 @@ double fieldAt(const std::vector<ConvexPiece>& pieces, Point p) {
   return least;
 }
 
-/// Tests points within cells, on their common faces, on the edges of these faces, and at corners, where pieces that
-/// only touch would leave a gap.
+/// Tests points inside the cells of a BSP, on the faces and edges that cells share, and at their corners, where pieces
+/// that only touch would leave a gap.
 void checkCover(const Polyhedron& solid, std::mt19937& random) {
   const auto cells = cutIntoCells(solid);
   REQUIRE(cells);
@@ -86,7 +87,7 @@ TEST_CASE("nothing inside a polyhedron is left out, and nothing outside taken in
   std::mt19937 random(3);
   checkCover(solidOf(windowedWall(3, 2)), random);
   checkCover(solidOf(archedBay(12)), random);
-  MeshMaker parts;  // parts that touch, overlap and cross each other
+  MeshMaker parts;  // solids that touch, overlap and cross each other
   parts.box({0, 0, 0}, {3, 1, 1});
   parts.box({3, 0, 0}, {4, 2, 1});
   parts.box({1, -1, 0.3}, {2, 3, 0.7});
@@ -110,7 +111,8 @@ TEST_CASE("fitted assets are covered in any size", "[asset][cover]") {
 }
 
 TEST_CASE("what runs through itself is refused", "[asset][cover]") {
-  // An inner box whose faces look inwards is a hole; an inside-out box beside the outer one holds nothing.
+  // The inverted (inside-out) box cuts a hole into the outer box, but it also extends beyond the outer box, where it
+  // would enclose void. So the surface intersects itself.
   MeshMaker maker;
   maker.box({0, 0, 0}, {4, 4, 4});
   MeshMaker hole;

@@ -23,7 +23,7 @@ double areaOf(const Polygon& p, const Cut& cut) {
   for (const auto& [a, b, c] : cut) sum += length(cross(p[b] - p[a], p[c] - p[a])) / 2;
   return sum;
 }
-/// Area by the shoelace formula, in the plane z = 0.
+/// Area of a polygon in the plane z = 0, by the shoelace formula.
 double shoelace(const Polygon& p) {
   double sum = 0;
   for (size_t i = 0; i < p.size(); ++i) {
@@ -33,8 +33,9 @@ double shoelace(const Polygon& p) {
   return sum / 2;
 }
 
-/// Triangulates a polygon, and checks that the triangles use every edge of the polygon once, and every other edge in
-/// both directions, have the same orientation, and fill the polygon's area: together this means a triangulation.
+/// Triangulates a polygon, and checks the result: the triangles use every edge of the polygon once and every other edge
+/// in both directions, have the same orientation, and fill the polygon's area. Together, these checks prove that the
+/// result is a triangulation.
 Cut checkedCut(const Polygon& polygon, double area, bool flat_allowed = false) {
   EarClipping clipping;
   Cut cut;
@@ -66,7 +67,7 @@ Clipped outcome(const Polygon& polygon) {
   return clipping.run(polygon, cut);
 }
 
-/// The polygon rotated out of the plane z = 0 by a rotation with rational numbers, and moved.
+/// Rotates the polygon out of the plane z = 0 by a matrix of rational numbers, and moves it.
 Polygon tilted(Polygon polygon) {
   for (Point& p : polygon) {
     const Point one{p.x, 0.6 * p.y - 0.8 * p.z, 0.8 * p.y + 0.6 * p.z};
@@ -116,7 +117,8 @@ TEST_CASE("corners on straight edges stay corners of triangles with area", "[ass
 }
 
 TEST_CASE("a hole that a bridge joins to the border stays a hole", "[asset][polygon]") {
-  // A square of 4 with a square hole of 2, joined by a bridge edge that is used in both directions.
+  // A square frame with an outer edge of 4 and a hole with an edge of 2: a bridge edge, used in both directions, joins
+  // the two outlines.
   const Polygon frame = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0},
                          {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
   checkedCut(frame, 12);
@@ -145,13 +147,13 @@ TEST_CASE("polygons that cross themselves, and those without area, are told", "[
   CHECK(outcome({{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 2, 0}}) == Clipped::crossed);
   CHECK(outcome({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}) == Clipped::crossed);
   CHECK(outcome({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}) == Clipped::crossed);
-  // A five-pointed star, which winds twice around its middle.
+  // A five-pointed star, whose outline winds twice around its middle.
   Polygon star;
   for (int i = 0; i < 5; ++i) star.push_back({std::cos(i * 2.5132741), std::sin(i * 2.5132741), 0});
   CHECK(outcome(star) == Clipped::crossed);
   // A corner lies on another edge, and the outline crosses there.
   CHECK(outcome({{0, 0, 0}, {4, 0, 0}, {4, 2, 0}, {2, 0, 0}, {1, -2, 0}}) == Clipped::crossed);
-  // A closed band that overlaps itself.
+  // The outline of a closed band that overlaps itself.
   CHECK(outcome({{0, 0, 0},
                  {6, 0, 0},
                  {6, 5, 0},
@@ -169,8 +171,8 @@ TEST_CASE("random polygons without crossings are cut into triangles that fill th
     INFO("seed " << seed);
     std::mt19937 random(seed);
     const auto unit = [&] { return static_cast<double>(random()) / 4294967296.0; };
-    // Corners around a middle in the order of their angles; every other polygon has whole numbers, so that corners lie
-    // on lines through others.
+    // Corners sorted by angle around a centre; every other polygon has integer coordinates, so that corners often lie
+    // on lines through other corners.
     const size_t corners = 4 + random() % 60;
     Polygon polygon;
     for (size_t i = 0; i < corners; ++i) {
@@ -182,7 +184,7 @@ TEST_CASE("random polygons without crossings are cut into triangles that fill th
     const double area = shoelace(polygon);
     checkedCut(polygon, area);
     checkedCut(tilted(polygon), area);
-    // The outline of a stair, in whole numbers.
+    // The outline of a staircase with integer coordinates.
     Polygon stairs{{0, 0, 0}};
     double x = 0;
     const size_t steps = 2 + random() % 20;
@@ -215,7 +217,7 @@ TEST_CASE("polygons of many corners take n log n steps, not n squared", "[asset]
   std::reverse(comb.begin(), comb.end());
   Polygon slanted = comb;
   for (Point& p : slanted) p.x += 3 * p.y;
-  // The outline follows one spiral arm outwards and another one back.
+  // The outline follows a spiral outwards, and returns along a second spiral parallel to it.
   for (int i = 0; i < kCorners; ++i) {
     const int step = i < kCorners / 2 ? i : kCorners - 1 - i;
     const double angle = 0.01 * step, radius = 1 + 0.1 * angle + (i < kCorners / 2 ? 0 : 0.2);

@@ -19,8 +19,8 @@ std::string refusal(const TriangleMesh& mesh, Point size, const std::vector<FitZ
   return body ? "" : body.error().message;
 }
 
-/// Checks that every corner lies in the planes of its faces, and that these have the same orientation as those of the
-/// asset.
+/// Checks that every corner lies in the planes of its faces, and that the faces have the same orientation as in the
+/// original asset.
 void checkAngles(const Polyhedron& body, const Polyhedron& asset) {
   for (size_t t = 0; t < body.triangles.size(); ++t) {
     const Plane& plane = body.faces[body.face_of[t]].plane;
@@ -38,7 +38,7 @@ void checkBox(const Polyhedron& body, Point size) {
   CHECK(length(body.high - 0.5 * size) < 1e-9);
 }
 
-/// The coordinates at which a body has corners on an axis, ascending.
+/// The distinct coordinates of a body's corners along an axis, ascending.
 std::vector<double> levels(const Polyhedron& body, int axis) {
   std::vector<double> out;
   for (const Point& p : body.points) out.push_back(p[axis] - body.low[axis]);
@@ -66,22 +66,23 @@ TEST_CASE("without zones all of an asset stretches alike", "[asset][fit]") {
 }
 
 TEST_CASE("zones stretch in proportion to their lengths, and nothing else does", "[asset][fit]") {
-  const Polyhedron wall = solidOf(windowedWall(2, 1));  // windows at 1..2 and 3..4 of 5
+  const Polyhedron wall = solidOf(windowedWall(2, 1));  // the windows span x = 1..2 m and 3..4 m of the wall's 5 m
   const auto body = fitInto(wall, {8, 3.5, 0.5}, std::vector<FitZone>{{0, false, 0.2, 0.6}, {0, false, 2.2, 3}});
   REQUIRE(body);
-  // The wall gets three metres longer: a third of them goes to the first zone. Parts beyond a zone are moved.
+  // The wall gets 3 m longer. The zones that may stretch are 0.4 m and 0.8 m long, so the first gets 1 m of that and
+  // the second 2 m. Parts of the wall outside of these zones only move.
   checkLevels(*body, 0, {0, 2, 3, 6, 7, 8});
   checkBox(*body, {8, 3.5, 0.5});
 }
 
 TEST_CASE("slanted faces keep their slope while what they join grows", "[asset][fit]") {
-  const Polyhedron house = solidOf(gabledHouse());  // 6 wide, eaves at 4, ridge at 6
+  const Polyhedron house = solidOf(gabledHouse());  // 6 m wide, with the eaves at 4 m and the ridge at 6 m
   for (const double wide : {3.0, 6.0, 8.0, 14.0}) {
     const auto body = fitInto(house, {wide, 8, 10}, {});
     REQUIRE(body);
     checkBox(*body, {wide, 8, 10});
     checkAngles(*body, house);
-    // The ridge is a third of the width above the eaves at every width.
+    // Because the roof keeps its slope, the ridge is a third of the width above the eaves.
     checkLevels(*body, 1, {0, 8 - wide / 3, 8});
     checkLevels(*body, 0, {0, wide / 2, wide});
   }
@@ -99,18 +100,18 @@ TEST_CASE("an arch with stiff chords is moved, and one that may stretch keeps it
 }
 
 TEST_CASE("zones are copied as often as comes nearest to the size", "[asset][fit]") {
-  const Polyhedron wall = solidOf(windowedWall(1, 1));  // a window at 1..2 of 3
+  const Polyhedron wall = solidOf(windowedWall(1, 1));  // the window spans x = 1..2 m of the wall's 3 m
   const std::vector<FitZone> alone{{0, true, 0.5, 2.5}};
-  // Without other zones, the copies stretch to fill the size.
+  // If the wall has no zone that stretches, the copies of the repeated zone stretch until they fill the size.
   const auto three = fitInto(wall, {7.6, 3.5, 0.5}, alone);
   REQUIRE(three);
   checkLevels(*three, 0, {0, 0.5, 1.05, 2.15, 2.7, 3.25, 4.35, 4.9, 5.45, 6.55, 7.1, 7.6});
   CHECK(three->volume() == Approx(0.5 * (7.6 * 3.5 - 3 * 1.1 * 1.5)));
-  // Beside a zone that stretches, the copies keep their length.
+  // If the wall also has a zone that stretches, the copies of the repeated zone keep their length.
   const auto stiff = fitInto(wall, {7.6, 3.5, 0.5}, std::vector<FitZone>{{0, true, 0.5, 2.5}, {0, false, 0.1, 0.4}});
   REQUIRE(stiff);
   CHECK(stiff->volume() == Approx(0.5 * (7.6 * 3.5 - 3 * 1.0 * 1.5)));
-  // The number of copies may be zero.
+  // If the size is small, a repeated zone is left out: it has no copy at all.
   const auto none = fitInto(wall, {1.5, 3.5, 0.5}, std::vector<FitZone>{{0, true, 0.5, 2.5}, {0, false, 0.1, 0.4}});
   REQUIRE(none);
   CHECK(none->volume() == Approx(0.5 * 1.5 * 3.5));

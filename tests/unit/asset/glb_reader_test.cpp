@@ -24,7 +24,7 @@ std::string refusal(const std::string& bytes, const MeshLimits& limits = {}) {
   return mesh ? "" : mesh.error().message;
 }
 
-/// The three points of a triangle, then their indices as bytes, shorts and words.
+/// The positions of a triangle's corners, followed by its indices as 8-bit, 16-bit and 32-bit numbers.
 std::string triangleBytes() {
   const float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   std::string out(reinterpret_cast<const char*>(points), sizeof points);
@@ -90,15 +90,15 @@ TEST_CASE("nodes move, turn, scale and mirror what they show", "[asset][glb]") {
   CHECK(near(moved(R"("rotation":[0,0,0.7071067811865476,0.7071067811865476])")[1], {0, 1, 0}));
   CHECK(near(moved(R"("scale":[2,3,4])")[2], {0, 3, 0}));
   CHECK(near(moved(R"("matrix":[0,1,0,0,-1,0,0,0,0,0,1,0,5,6,7,1])")[1], {5, 7, 7}));
-  // A mirrored triangle still faces the same side.
+  // A triangle of a mirrored node still faces the same side.
   const auto mirrored = moved(R"("scale":[-1,1,1])");
   CHECK(near(normalised(cross(mirrored[1] - mirrored[0], mirrored[2] - mirrored[0])), {0, 0, 1}));
-  // A child's transform is applied first, its parent's afterwards.
+  // A child node's transform is applied first, then its parent's.
   const auto mesh = read(triangleFile(
       R"("nodes":[{"mesh":0}])", R"("nodes":[{"children":[1],"scale":[2,2,2]},{"mesh":0,"translation":[1,0,0]}])"));
   REQUIRE(mesh);
   CHECK(mesh->points[mesh->triangles[0][1]] == Point{4, 0, 0});
-  // Without a scene, all root nodes are shown.
+  // If the file names no scene, all root nodes are read.
   CHECK(read(triangleFile(R"("scene":0,"scenes":[{"nodes":[0]}],)", "")));
 }
 
@@ -250,8 +250,7 @@ TEST_CASE("normals and texture coordinates come as the nodes turn them", "[asset
   REQUIRE(mesh->coordinates.values.size() == 6);
   CHECK(mesh->normals.corners.empty());
   CHECK(mesh->normals.values[0] == Normal{});
-  // A surface that is stretched along x: its normals shrink along x; where the surface is mirrored along z, so are its
-  // normals.
+  // Stretching the surface along x shrinks its normals along x; mirroring it along z mirrors its normals, too.
   CHECK(near(mesh->normals.values[3], unitNormal(0.5, 1, 0)));
   CHECK(near(mesh->normals.values[4], {0, 0, -1}));
   CHECK(mesh->normals.values[5] == Normal{});

@@ -13,7 +13,7 @@
 
 namespace sgm::asset {
 
-/// glTF's code for a component type.
+/// glTF's code for the component type T (accessor.componentType).
 template <class T>
 constexpr int kComponent = 0;
 template <>
@@ -31,7 +31,7 @@ inline constexpr int kComponent<float> = 5126;
 
 class GltfBuilder {
  public:
-  /// Members of the root object in addition to the built ones, such as `"nodes":[{"mesh":0}]`.
+  /// JSON members of the root object in addition to those that the other functions add, such as `"nodes":[{"mesh":0}]`.
   std::string members = R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}])";
 
   template <class T>
@@ -43,7 +43,7 @@ class GltfBuilder {
               R"(,"byteLength":)" + std::to_string(binary_.size() - at) + more + "}";
     return view_count_++;
   }
-  /// more: further members, each with a comma in front.
+  /// more: further members of the JSON object, each preceded by a comma.
   int accessor(const std::string& type, int component, size_t count, const std::string& more) {
     accessors_ += (accessors_.empty() ? "" : ",") + std::string(R"({"componentType":)") + std::to_string(component) +
                   R"(,"count":)" + std::to_string(count) + R"(,"type":")" + type + '"' + more + "}";
@@ -55,7 +55,7 @@ class GltfBuilder {
     const std::string in = R"(,"bufferView":)" + std::to_string(view(values));
     return accessor(type, kComponent<T>, values.size() / each, in + more);
   }
-  /// Adds a mesh with one primitive. primitive: its members, without braces.
+  /// Adds a mesh with one primitive. primitive: the primitive's JSON members, without braces.
   void mesh(const std::string& primitive, const std::string& more = "") {
     meshes_ += (meshes_.empty() ? "" : ",") + std::string(R"({"primitives":[{)") + primitive + "}]" + more + "}";
   }

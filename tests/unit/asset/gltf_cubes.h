@@ -1,5 +1,5 @@
 #pragma once
-// Cubes as glTF files, and what is read of them.
+// Makes cubes as glTF files, and reads them: the mesh, or the error message.
 
 #include <cmath>
 
@@ -28,7 +28,8 @@ inline bool isNear(const TextureCoordinates& a, float u, float v) {
   return std::fabs(a[0] - u) < 1e-6f && std::fabs(a[1] - v) < 1e-6f;
 }
 
-/// A cube of volume 8; more: further attributes, each behind a comma; behind: further members of the primitive.
+/// A cube of volume 8. more: further vertex attributes, each preceded by a comma; behind: further members of the
+/// primitive.
 inline GltfBuilder cube(const std::string& more = "", const std::string& behind = "", const std::string& of_mesh = "") {
   GltfBuilder file;
   file.numbers("VEC3", kCubePoints);

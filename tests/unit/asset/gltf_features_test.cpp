@@ -1,5 +1,5 @@
-// Every feature of glTF 2.0 that changes which triangles the primitives of a static file show (sections 3.6 and 3.7): a
-// file of each, made here, and the values that it must have, found by hand.
+// Tests every feature of glTF 2.0 that changes which triangles a static file shows (sections 3.6 and 3.7). Each test
+// builds a file, and compares it with values that were calculated by hand.
 
 #include "gltf_cubes.h"
 
@@ -27,7 +27,7 @@ TEST_CASE("glTF: accessors are read by offset and stride, whatever lies between"
 }
 
 TEST_CASE("glTF: strips and fans of triangles", "[asset][gltf]") {
-  // A tetrahedron of volume 1/6 as a triangle strip, and as a fan with an extra base triangle.
+  // A tetrahedron of volume 1/6, once as a triangle strip, and once as a fan with an extra base triangle.
   const std::vector<float> points{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const auto with = [&](int mode, const std::vector<uint16_t>& indices, const std::string& node = "") {
     GltfBuilder file;
@@ -41,11 +41,11 @@ TEST_CASE("glTF: strips and fans of triangles", "[asset][gltf]") {
   CHECK(strip.triangles == std::vector<std::array<uint32_t, 3>>{{1, 0, 2}, {0, 3, 2}, {2, 3, 1}, {3, 0, 1}});
   CHECK(volumeOf(strip) == Approx(1.0 / 6));
   CHECK(openEdgesOf(strip) == 0);
-  // Repeated corners connect two strips and make no triangles.
+  // Repeated corners join two strips, and add no triangles.
   const TriangleMesh led = with(5, {0, 2, 1, 1, 0, 0, 1, 3});
   CHECK(led.triangles == std::vector<std::array<uint32_t, 3>>{{0, 2, 1}, {0, 3, 1}});
-  // Separate triangles joined into one strip, each at an odd position: their orientations are kept, and a note is
-  // given.
+  // Separate triangles joined into one strip, each at an odd position, where the format reverses triangles: the reader
+  // keeps their orientation, and adds a note.
   const TriangleMesh unruly = with(5, {0, 0, 2, 1, 1, 1, 0, 0, 1, 3, 3, 3, 1, 1, 2, 3, 3, 3, 2, 2, 0, 3});
   CHECK(volumeOf(unruly) == Approx(1.0 / 6));
   CHECK(unruly.notes == Notes{"1 strip has triangles at odd places only, at /meshes/0/primitives/0 of its JSON: read "
@@ -56,7 +56,7 @@ TEST_CASE("glTF: strips and fans of triangles", "[asset][gltf]") {
   // In a mirrored node, the triangles still face outwards.
   const TriangleMesh mirrored = with(5, {1, 0, 2, 3, 1, 0}, R"(,"scale":[-1,1,1])");
   CHECK(volumeOf(mirrored) == Approx(1.0 / 6));
-  // Without indices, the points are used in their order.
+  // A primitive without indices uses its points in their order.
   GltfBuilder bare;
   bare.numbers("VEC3", std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
   bare.mesh(R"("attributes":{"POSITION":0},"mode":6)");
@@ -89,8 +89,8 @@ TEST_CASE("glTF: lines and points beside triangles are left out with a note", "[
 }
 
 TEST_CASE("glTF: sparse accessors replace some of their numbers", "[asset][gltf]") {
-  // One corner rises by 3, which changes three of the pyramids from the middle to the faces. Calculated by hand: 8 + 4
-  // = 12.
+  // Makes a cube whose sparse position accessor moves the corners `index` and 7 to (1, 1, 2) and (-1, 1, 2). of: JSON
+  // members in place of the reference to the dense values.
   const auto with = [](auto index, const std::string& of) {
     GltfBuilder file;
     const int base = file.view(kCubePoints), indices = file.view(std::vector{index, static_cast<decltype(index)>(7)});
@@ -104,7 +104,7 @@ TEST_CASE("glTF: sparse accessors replace some of their numbers", "[asset][gltf]
     file.mesh(R"("attributes":{"POSITION":0},"indices":1)");
     return file.glb();
   };
-  // The edge y = 1 of the top rises from z = 1 to z = 2: a wedge of 2 x 2 x 1 / 2 is added.
+  // The top's edge y = 1 rises from z = 1 to z = 2, which adds a wedge with the volume 2 x 2 x 1 / 2.
   CHECK(volumeOf(gltf(with(uint8_t{6}, ""))) == 10);
   CHECK(volumeOf(gltf(with(uint16_t{6}, ""))) == 10);
   CHECK(volumeOf(gltf(with(uint32_t{6}, ""))) == 10);
@@ -114,7 +114,7 @@ TEST_CASE("glTF: sparse accessors replace some of their numbers", "[asset][gltf]
   CHECK(zero.points[6] == Point{1, 1, 2});
   CHECK(gltfRefusal(with(uint16_t{8}, "")) ==
         "accessor 0 replaces an element that it does not have, at /accessors/0/sparse/indices of its JSON");
-  // Indices may be sparse, too: here, the last triangle is reversed.
+  // Indices may be sparse, too: here, the dense indices reverse the last triangle, and the sparse ones correct that.
   GltfBuilder file;
   file.numbers("VEC3", kCubePoints);
   std::vector<uint16_t> turned = kCubeIndices;
@@ -130,7 +130,8 @@ TEST_CASE("glTF: sparse accessors replace some of their numbers", "[asset][gltf]
 }
 
 TEST_CASE("glTF: morph targets stand as their default weights say", "[asset][gltf]") {
-  // The first target lifts the top by 1, adding 2 x 2 x 1. The second moves all points by 5 along x.
+  // The first morph target lifts the top by 1, which adds a volume of 2 x 2 x 1. The second moves all points by 5 along
+  // x.
   const auto with = [](const std::string& of_mesh, const std::string& of_node) {
     GltfBuilder file = cube(R"(,"NORMAL":4,"TEXCOORD_0":5)",
                             R"(,"targets":[{"POSITION":2,"NORMAL":6},{"POSITION":3,"TEXCOORD_0":7}])", of_mesh);
@@ -156,7 +157,7 @@ TEST_CASE("glTF: morph targets stand as their default weights say", "[asset][glt
   CHECK(volumeOf(moved) == Approx(10));
   CHECK(isNear(middleOf(moved), {10, 0, 0.25}));
   CHECK(isNear(moved.coordinates.values[0], 1.25f, 0));
-  // If there are fewer weights than targets, the missing ones are 0.
+  // If a mesh has fewer weights than morph targets, the missing weights are 0.
   CHECK(volumeOf(with("", R"(,"weights":[-1])")) == 4);
 }
 
@@ -186,7 +187,7 @@ TEST_CASE("glTF: textures are laid as the material says", "[asset][gltf]") {
   const auto laid = [&](const std::string& how, const std::string& set = "") {
     return base(set + R"(,"extensions":{"KHR_texture_transform":{)" + how + "}}");
   };
-  // In glTF, v grows downwards in a picture; here, it grows upwards.
+  // In glTF, the texture coordinate v grows downwards in a picture; in a TriangleMesh, it grows upwards.
   CHECK(isNear(with("").coordinates.values[1], 1, 1));
   CHECK(isNear(with(base(R"(,"texCoord":1)")).coordinates.values[1], 3, 1));
   CHECK(isNear(with(R"("emissiveTexture":{"index":0,"texCoord":1})").coordinates.values[1], 3, 1));
@@ -194,7 +195,7 @@ TEST_CASE("glTF: textures are laid as the material says", "[asset][gltf]") {
   CHECK(isNear(with(laid(R"("scale":[4,2])")).coordinates.values[1], 4, 1));
   CHECK(isNear(with(laid(R"("scale":[4,2])")).coordinates.values[2], 0, -1));
   CHECK(isNear(with(laid(R"("offset":[0.5,0.25])")).coordinates.values[1], 1.5f, 0.75f));
-  // A rotation by a quarter, counter-clockwise as seen: the right becomes the top, where v is smaller in glTF.
+  // A quarter turn, counter-clockwise as seen: the picture's right becomes its top, where v is smaller in glTF.
   CHECK(
       isNear(with(laid(R"("rotation":1.5707963267948966,"offset":[0,1],"scale":[2,1])")).coordinates.values[1], 0, 2));
   CHECK(isNear(with(laid(R"("rotation":1.5707963267948966)")).coordinates.values[2], 1, 1));
@@ -217,7 +218,7 @@ TEST_CASE("glTF: whole numbers stand for positions, normals and coordinates", "[
     std::vector<T> points, normals;
     for (size_t i = 0; i < 8; ++i)
       for (size_t k = 0; k < 4; ++k) {
-        // The fourth number is padding: vertex attributes are aligned to four bytes.
+        // The fourth number is padding, because vertex attributes are aligned to four bytes.
         const bool up = k < 3 && kCubePoints[3 * i + k] > 0;
         points.push_back(up ? one : static_cast<T>(std::is_signed_v<T> ? -one : 0));
         normals.push_back(k == 0 ? one : T{});
@@ -247,7 +248,7 @@ TEST_CASE("glTF: whole numbers stand for positions, normals and coordinates", "[
   const TriangleMesh mesh = gltf(with(int16_t{32767}, true, required, 1));
   CHECK(mesh.normals.values[0] == Normal{1, 0, 0});
   CHECK(isNear(mesh.coordinates.values[0], 1, 1));
-  // The smallest number (-128) means -1, too.
+  // The smallest normalized 8-bit number, -128, also means -1.
   GltfBuilder least;
   least.numbers("VEC3", std::vector<int8_t>{-128, 0, 0, 127, 0, 0, 0, 127, 0}, R"(,"normalized":true)");
   least.mesh(R"("attributes":{"POSITION":0})");

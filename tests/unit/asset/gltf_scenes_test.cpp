@@ -1,5 +1,5 @@
-// Where glTF 2.0 puts triangles: skins, instances and scenes; and its extensions and containers. A file of each, made
-// here, and the values that it must have, found by hand.
+// Tests where glTF 2.0 puts triangles: skins, instances and scenes; also its extensions and containers. Each test
+// builds a file, and compares it with values that were calculated by hand.
 
 #include "gltf_cubes.h"
 
@@ -7,7 +7,7 @@ using namespace sgm;
 using namespace sgm::asset;
 
 TEST_CASE("glTF: skins hold points at the joints' places, whatever their node does", "[asset][gltf]") {
-  // The mesh's node is scaled by 10, which plays no part; the joint stands at x = 100 below a turned parent.
+  // Makes a cube that is bound to a skin. Its own node has a scale of 10, which must have no effect on skinned points.
   const auto with = [](const std::string& nodes, const std::string& skin, const std::vector<uint8_t>& joints,
                        const auto& weights, const std::vector<float>& inverse = {}) {
     GltfBuilder file = cube(R"(,"JOINTS_0":2,"WEIGHTS_0":3)");
@@ -25,12 +25,12 @@ TEST_CASE("glTF: skins hold points at the joints' places, whatever their node do
                                   whole, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 3, 1});
   CHECK(volumeOf(bound) == Approx(8));
   CHECK(isNear(middleOf(bound), {100, 0, 3}));
-  // Without matrices they are the identity; joints stand below others.
+  // Missing inverse bind matrices mean the identity. Here, the joint is the child of a rotated node.
   const TriangleMesh below =
       with(R"({"children":[2],"rotation":[0,0,0.7071067811865476,0.7071067811865476]},{"translation":[100,0,0]})",
            R"("joints":[2])", first, whole);
   CHECK(isNear(middleOf(below), {0, 100, 0}));
-  // Between two joints by weights, here of bytes: the upper half of the cube is bound to the second.
+  // Points bound to two joints, with weights in bytes: the upper half of the cube follows the second joint by a fifth.
   const std::string two = R"({"translation":[0,0,0]},{"translation":[0,0,10]})";
   std::vector<uint8_t> numbers(32, 0), weights(32, 0);
   for (size_t i = 0; i < 8; ++i) {
@@ -40,12 +40,12 @@ TEST_CASE("glTF: skins hold points at the joints' places, whatever their node do
   }
   const TriangleMesh bent = with(two, R"("joints":[1,2])", numbers, weights);
   CHECK(bent.notes.empty());
-  // The top, z = 1, goes up by 10 * 51 / 255 = 2.
+  // The top, z = 1, moves up by 10 * 51 / 255 = 2.
   CHECK(isNear(bent.points[6], {1, 1, 3}));
   CHECK(volumeOf(bent) == Approx(16));
-  // A joint that mirrors turns the triangles round with it.
+  // A joint that mirrors also reverses the triangles, so that they still face outwards.
   CHECK(volumeOf(with(R"({"scale":[-1,1,1]})", R"("joints":[1])", first, whole)) == Approx(8));
-  // Weights of another sum are divided by it, with a note.
+  // Weights whose sum is not 1 are divided by the sum, with a note.
   const TriangleMesh doubled = with(R"({"translation":[4,0,0]})", R"("joints":[1])", first, eight({2, 0, 0, 0}));
   CHECK(isNear(middleOf(doubled), {4, 0, 0}));
   CHECK(doubled.notes ==
@@ -91,7 +91,7 @@ TEST_CASE("glTF: what is wrong with a skin is said", "[asset][gltf]") {
   CHECK(with("{}", R"({"joints":[1]})", 1) ==
         "accessor 2 binds point 0 to a joint that skin 0 does not have, at /accessors/2 of its JSON");
   CHECK(with(R"({"children":[1]})", R"({"joints":[1]})").ends_with("below itself, at /nodes/1 of its JSON"));
-  // A mesh that cannot be bound goes with its node.
+  // A mesh without joints or weights cannot be bound to its skin, so its node moves it.
   GltfBuilder loose = cube();
   loose.members = R"("nodes":[{"mesh":0,"skin":0,"translation":[1,0,0]}],"skins":[{"joints":[0]}])";
   const TriangleMesh mesh = gltf(loose.glb());
@@ -111,7 +111,7 @@ TEST_CASE("glTF: instances stand where their attributes say, and hidden nodes no
   const TriangleMesh twice = gltf(file.glb());
   CHECK(volumeOf(twice) == Approx(16 + 128));
   CHECK(isNear(middleOf(twice), {5, 0, 0}));
-  // Half a turn about z: the first corner stands where the third was.
+  // Half a turn about z puts the first corner where the third one was.
   CHECK(isNear(twice.points[8], {12, 2, -4}));
   GltfBuilder uneven = cube();
   uneven.numbers("VEC3", std::vector<float>{0, 0, 0, 10, 0, 0});
@@ -167,7 +167,7 @@ TEST_CASE("glTF: extensions that change no triangles are accepted, others refuse
   CHECK(gltf(with("extensionsUsed", "EXT_meshopt_compression")).notes.empty());
   CHECK(gltf(with("extensionsUsed", "ACME_displacement")).notes ==
         Notes{"1 extension that it uses is left out, `ACME_displacement`"});
-  // What is packed and has no plain numbers beside is no mesh of zeros.
+  // Compressed data without uncompressed accessors must be refused, and not be read as zeros.
   GltfBuilder packed;
   packed.accessor("VEC3", 5126, 8, "");
   packed.accessor("SCALAR", 5123, 36, "");
@@ -232,7 +232,8 @@ TEST_CASE("glTF: text with its numbers in itself is read; other files are not op
         "buffer 0 has a `data:` URI that is not base64, at /buffers/0 of its JSON");
   CHECK(gltfRefusal(file.json(uri("cube.bin"))) ==
         "buffer 0 lies in another file, `cube.bin`, at /buffers/0 of its JSON");
-  // Its JSON may be long, and yet not hold many values, which take memory.
+  // The JSON text may be long, for example because of a `data:` URI. json_bytes limits the number of its values,
+  // because each value takes memory.
   std::string many = file.json(uri("data:;base64," + coded));
   many.insert(1, R"("extras":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],)");
   CHECK(volumeOf(gltf(many)) == 8);

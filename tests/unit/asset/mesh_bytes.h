@@ -19,7 +19,7 @@ inline TriangleMesh meshIn(const std::string& file, MeshFileKind kind) {
   return std::move(*mesh);
 }
 
-/// The reason for which a file is rejected, without the remedy; empty if the file is valid.
+/// The message with which a file is rejected, without the advice after its last semicolon; empty if the file is valid.
 inline std::string refusalOf(const std::string& file, MeshFileKind kind, const MeshLimits& limits = {}) {
   const auto mesh = readMesh(bytesOf(file), kind, limits);
   if (mesh) return "";
@@ -33,7 +33,7 @@ inline std::string refusalOf(const std::string& file, MeshFileKind kind, const M
   return message.substr(0, advice);
 }
 
-/// Appends a number's bytes in this machine's order, or reversed if `turned`.
+/// Appends the bytes of a number in this machine's byte order, or in reversed order if `turned`.
 template <class T>
 void putNumber(std::string& out, T value, bool turned = false) {
   char bytes[sizeof value];

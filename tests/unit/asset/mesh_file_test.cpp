@@ -18,7 +18,7 @@ using namespace sgm::asset;
 
 namespace {
 
-/// Random triangles without a closed surface, with float coordinates, so that no format loses precision.
+/// Random triangles, which form no closed surface. Their coordinates are floats, so that no format loses precision.
 WorldMesh randomWorldMesh(std::mt19937& random) {
   WorldMesh mesh;
   const size_t points = 3 + random() % 60, triangles = 1 + random() % 120;
@@ -39,7 +39,7 @@ std::string exported(const WorldMesh& mesh, const ExportInfo& info, const std::s
   return contentOf(path);
 }
 
-/// The double nearest to a coordinate that was written as a decimal float.
+/// Rounds each coordinate to the nearest float, which is what the exporters write.
 Point roundedToFloat(Point p) {
   for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(static_cast<float>(p[axis]));
   return p;
@@ -50,7 +50,7 @@ Point pointAt(const WorldMesh& mesh, uint32_t index) {
   return {p[0], p[1], p[2]};
 }
 
-/// The corners in the exporter's order: sorted by material, for formats that have materials.
+/// The order of triangles in an exported file: sorted by material, if the format has materials.
 std::vector<size_t> exportedOrder(const WorldMesh& mesh, bool by_material) {
   std::vector<size_t> order;
   const auto material = [&](size_t t) {
@@ -134,7 +134,8 @@ TEST_CASE("texture coordinates that are exported read back, with points that sta
   CHECK(glb.points.size() == 6);
   for (size_t i = 0; i < 6; ++i) {
     CHECK(obj.coordinatesAt(i / 3, i % 3) == places[i]);
-    // glTF counts a picture's rows from the other end; as the picture repeats, both numbers mean the same place.
+    // The texture coordinate v has the opposite direction in glTF; because pictures repeat, v and v + 1 mean the same
+    // place.
     CHECK(glb.coordinatesAt(i / 3, i % 3) == TextureCoordinates{places[i][0], places[i][1] + 1});
   }
 }
@@ -217,7 +218,7 @@ namespace {
 
 const std::string kTetrahedronObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
-/// ASCII text as units of `width` bytes each.
+/// Encodes ASCII text in units of `width` bytes each. mark: begins with a byte order mark.
 std::string widened(const std::string& text, size_t width, bool big_endian, bool mark) {
   std::string out;
   const auto put = [&](uint32_t code) {
@@ -257,7 +258,7 @@ TEST_CASE("text is read in every encoding", "[asset][mesh_file]") {
           CHECK(mesh.notes.empty());
         }
   }
-  // Letters beyond ASCII, one beyond the first 65,536 code points, and half a surrogate pair.
+  // The name has letters beyond ASCII, one beyond the first 65,536 code points, and half a surrogate pair.
   std::string named = widened("usemtl ", 2, false, true);
   for (const char16_t c : std::u16string(u"B\u00E4ume \U0001F332\xD800")) {
     named += static_cast<char>(c & 0xFF);

@@ -50,7 +50,7 @@ TEST_CASE("an OBJ file's lines end, go on and are commented in every way", "[ass
 
 TEST_CASE("an OBJ file's numbers are read in any locale", "[asset][obj]") {
   const std::string before = std::setlocale(LC_NUMERIC, nullptr);
-  std::setlocale(LC_NUMERIC, "de_DE.UTF-8");  // if it is installed
+  std::setlocale(LC_NUMERIC, "de_DE.UTF-8");  // has no effect if this locale is not installed
   const TriangleMesh mesh = objOf("v 1.5 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
   std::setlocale(LC_NUMERIC, before.c_str());
   CHECK(mesh.points[0].x == 1.5);
@@ -66,21 +66,20 @@ TEST_CASE("an OBJ file's materials are those of usemtl", "[asset][obj]") {
 
 TEST_CASE("an OBJ file's normals and coordinates leave its points alone", "[asset][obj]") {
   const std::string values = kSquare + "vn 0 0 2\nvn 0 0 1\nvn 1 0 0\nvt 0 1\nvt 0.5\nvt 1 0 7\n";
-  // All corners of a point have the same values, so they are stored per point; they are zero for the point without a
-  // face.
+  // All corners at a point have the same values, so values are stored per point; a point without a face has zeros.
   TriangleMesh mesh = objOf(values + "f 1/1/1 2/2/2 3/3/1\nf 1/1/2 3/3/2 2/2/1\n");
   CHECK(mesh.points.size() == 4);
   CHECK(mesh.normals.corners.empty());
   CHECK(mesh.normals.values == std::vector<Normal>{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {}});
   CHECK(mesh.coordinates.corners.empty());
   CHECK(mesh.coordinates.values == std::vector<TextureCoordinates>{{0, 1}, {0.5f, 0}, {1, 0}, {}});
-  // The corners of the first point have different values, so that values are indexed per corner.
+  // The corners at the first point have different values, so values are stored per corner.
   mesh = objOf(values + "f 1//1 2//2 3//1\nf 1//3 3//2 4//1\n");
   CHECK(mesh.points.size() == 4);
   CHECK(mesh.normals.corners == Triangles{{0, 1, 0}, {2, 1, 0}});
   CHECK(mesh.normalAt(1, 0) == Normal{1, 0, 0});
   CHECK(mesh.coordinates.empty());
-  // Some faces, the first or a later one, have no values.
+  // Faces without texture coordinates get zeros, wherever they are in the file.
   mesh = objOf(values + "f 1 2 3\nf 1/-1 3/-2 4/-3\nf 2 3 4\n");
   CHECK(mesh.normals.empty());
   CHECK(mesh.coordinatesAt(0, 0) == TextureCoordinates{});
@@ -138,7 +137,7 @@ TEST_CASE("what is wrong with an OBJ file is said with its line", "[asset][obj]"
 }
 
 TEST_CASE("an OBJ file's concave polygons are cut, and crossing ones noted", "[asset][obj][polygon]") {
-  // A prism over an L-shaped face, whose corners start at each of its points in turn.
+  // A prism over an L-shaped polygon; its corner list starts at each of the six points in turn.
   const std::string ring[6] = {"2 0", "2 1", "1 1", "1 2", "0 2", "0 0"};
   for (size_t first = 0; first < 6; ++first) {
     std::string points, low, high, sides;
@@ -154,7 +153,7 @@ TEST_CASE("an OBJ file's concave polygons are cut, and crossing ones noted", "[a
       sides += "f " + std::to_string(now) + " " + std::to_string(next) + " " + std::to_string(next + 1) + " " +
                std::to_string(now + 1) + "\n";
     }
-    // Faces that precede their points are triangulated, too.
+    // Faces that come before their points in the file are triangulated, too.
     for (const std::string& file :
          {points + "f" + low + "\nf" + high + "\n" + sides, "f" + low + "\nf" + high + "\n" + sides + points}) {
       const TriangleMesh mesh = objOf(file);
@@ -175,7 +174,7 @@ TEST_CASE("an OBJ file's concave polygons are cut, and crossing ones noted", "[a
   CHECK(crossed.notes ==
         std::vector<std::string>{
             "2 polygons cross themselves or have no area, the first at line 5: triangles may overlap there"});
-  // A corner that is repeated in a row counts once.
+  // A corner that is repeated in succession counts once.
   CHECK(objOf(kSquare + "f 1 1 2 3 3 4 1").triangles == Triangles{{0, 1, 2}, {0, 2, 3}});
   CHECK(objOf(kSquare + "f 1 1 2 2").triangles.size() == 2);
 }

@@ -29,7 +29,7 @@ const std::string kPlyNumbers =
     "2 7 8 1.5\n0 2.5\n0 0 255 0 0 0 0 2 0 0\n1 0 255 0 1 9 0 0 0.5 1 0\n1 1 255 -0.5 0 1 0 0 1 1\n"
     "0 1 255 0 2 8 9 0 1 0 0 1\n-1 4 0 1 2 3 0\n-1 3 0 1 2 6 0 0 1 0 1 1\n0 2 0 1 0\n7\n";
 
-/// The contents of kPlyNumbers as binary data; turned: in reversed byte order.
+/// The contents of kPlyNumbers as binary data. turned: in reversed byte order.
 std::string plyBytes(bool turned) {
   std::string out;
   const auto put = [&](auto value) { putNumber(out, value, turned); };
@@ -90,7 +90,7 @@ TEST_CASE("a PLY file's elements may come in any order, and its header end as li
   CHECK(mesh.normals.empty());
   CHECK(plyRefusal(replacedIn(faces_first, "3 2 1 0", "3 2 1 3")) ==
         "face 0 has a corner that is not one of the file's 3 vertices, at line 10");
-  // A vertex more than the header declares is read as a face.
+  // If the file has one vertex more than its header declares, the line of the last vertex is read as a face.
   const std::string five =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
@@ -100,7 +100,7 @@ TEST_CASE("a PLY file's elements may come in any order, and its header end as li
   CHECK(plyRefusal(five + "0.5 1 1\n3 0 1 2\n") ==
         "it has a list without a length within 0 of 1 of the element `face`, counted from 0: the file has more lines "
         "than the header declares, perhaps more vertices, at line 14");
-  // The first number begins with the byte of a newline character.
+  // The binary data begin with the byte of a newline, which must not be taken for a part of the header's last line end.
   std::string binary =
       "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\n"
       "property uchar z\nelement face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
@@ -181,7 +181,7 @@ TEST_CASE("what is wrong with a PLY file is said with its line or its byte", "[a
   }
   CHECK(plyRefusal(text, {.points = 3}) == "it has more than 3 points");
   CHECK(plyRefusal(text, {.triangles = 2}) == "it has more than 2 triangles");
-  // The file declares a list of the greatest possible length.
+  // The header declares 32-bit lengths of lists, but the data have 8-bit ones: the first length read is huge.
   std::string turned = binaryPly(true);
   const std::string list = "list uint8 uint vertex_indices";
   turned = replacedIn(turned, list, "list uint32 uint vertex_indices");
@@ -198,7 +198,7 @@ TEST_CASE("a PLY text's line is a record: what it holds beyond is never taken fo
   const TriangleMesh plain = read(points + faces);
   CHECK(volumeOf(plain) == 4.5);
   CHECK(plain.notes.empty());
-  // Files of exporters that forget to declare a property, of faces or of vertices.
+  // Exporters may forget to declare a property of faces or vertices: the additional values are left out, with a note.
   const TriangleMesh more = read(points + "3 0 2 1 7 9 9\n3 0 1 3 7 9 9\n3 1 2 3 7 9 9\n3 2 0 3 7 9 9\n");
   CHECK(more.triangles == plain.triangles);
   CHECK(more.notes == NoteTexts{"4 lines have more values than the header declares, the first at line 15: left out"});
@@ -209,7 +209,7 @@ TEST_CASE("a PLY text's line is a record: what it holds beyond is never taken fo
   CHECK(volumeOf(read("0\n0 0\n3 0\n0\n0 3 0\n0 0 3\n3\n0 2 1 7\n3 0 1 3\n7\n3 1 2 3 7\n3 2 0 3 7")) == 4.5);
   CHECK(volumeOf(read("0 0 0 3 0 0 0 3 0 0 0 3 3 0 2 1 7 3 0 1 3 7 3 1 2 3 7 3 2 0 3 7")) == 4.5);
   CHECK(read(points + faces + "# the end\n").notes == NoteTexts{"text after its last element is left out, at line 19"});
-  // If it is ambiguous which element a value belongs to, an error is reported.
+  // If it is not clear to which element a value belongs, an error is reported.
   CHECK(
       plyRefusal(header + "0 0\n3 0 0\n0 3 0\n0 0 3\n" + faces) ==
       "a line has fewer values than the header declares within 0 of 4 of the element `vertex`, counted from 0, at line "

@@ -36,7 +36,7 @@ TEST_CASE("triangles that lie in one plane and hang together are one face", "[as
   const auto wall = makePolyhedron(windowedWall(3, 2));
   REQUIRE(wall);
   CHECK(wall->faces.size() == 6 + 4 * 6);
-  // The gable's wall and roof meet in an edge; faces in one plane are separate where their materials differ.
+  // Coplanar triangles form one face, unless their materials differ.
   const auto house = makePolyhedron(gabledHouse());
   REQUIRE(house);
   CHECK(house->faces.size() == 7);
@@ -48,7 +48,8 @@ TEST_CASE("triangles that lie in one plane and hang together are one face", "[as
 }
 
 TEST_CASE("edges that corners of others lie on are no gaps", "[asset][polyhedron]") {
-  // The top face is divided into two halves along z, each side is one face.
+  // The top of the box is divided into two rectangles, whose common corners lie in the middle of edges of the undivided
+  // side faces (T-junctions).
   MeshMaker maker;
   maker.box({0, 0, 0}, {2, 1, 2});
   auto& t = maker.mesh.triangles;

@@ -1,4 +1,4 @@
-// Tests the messages of the mesh readers that no other test causes, each with a file made here.
+// Tests the messages of the mesh readers that no other test produces; each test builds its own file.
 
 #include <limits>
 
@@ -19,12 +19,13 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 Notes notesOf(const std::string& file, MeshFileKind kind = MeshFileKind::glb) { return meshIn(file, kind).notes; }
 std::string glbRefusal(const std::string& file) { return refusalOf(file, MeshFileKind::glb); }
 
-/// The members of a cube's primitive for GltfBuilder::mesh(): accessors 0 and 1 are the cube's.
+/// JSON members of a cube's primitive, for GltfBuilder::mesh(): accessor 0 has the cube's positions, accessor 1 its
+/// indices.
 std::string cubePrimitive(const std::string& more = "", const std::string& behind = "") {
   return R"("attributes":{"POSITION":0)" + more + R"(},"indices":1)" + behind;
 }
 
-/// A mesh with these primitives, with the data of a cube.
+/// A file with one mesh that has these primitives; accessors 0 and 1 have the data of a cube.
 GltfBuilder cubesOf(const std::string& primitives = cubePrimitive()) {
   GltfBuilder file;
   file.numbers("VEC3", kCubePoints);
@@ -33,19 +34,19 @@ GltfBuilder cubesOf(const std::string& primitives = cubePrimitive()) {
   return file;
 }
 
-/// The same primitive once or twice.
+/// Repeats a primitive's JSON: once or twice.
 std::string times(int count, const std::string& primitive) {
   return count == 1 ? primitive : primitive + "},{" + primitive;
 }
 
-/// Four numbers for each corner of a cube.
+/// Four numbers for each of the eight corners of a cube: `first`, 0, 0, 0.
 std::vector<float> fourEach(float first) {
   std::vector<float> out;
   for (int i = 0; i < 8; ++i) out.insert(out.end(), {first, 0, 0, 0});
   return out;
 }
 
-/// A cube with a skin of one joint and these weights.
+/// A cube that is bound to a skin with one joint; weights: four for each corner.
 GltfBuilder boundCube(const std::vector<float>& weights, const std::string& joint = "{}",
                       const std::string& of_skin = "") {
   GltfBuilder file = cubesOf(cubePrimitive(R"(,"JOINTS_0":2,"WEIGHTS_0":3)"));
@@ -55,7 +56,7 @@ GltfBuilder boundCube(const std::vector<float>& weights, const std::string& join
   return file;
 }
 
-/// A cube with instances by these attributes; they use the accessors from 2 on.
+/// A cube with GPU instances. attributes: JSON of the instances' attributes, whose accessors begin with number 2.
 GltfBuilder placedCube(const std::string& attributes) {
   GltfBuilder file = cubesOf();
   file.members = R"("nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{)" + attributes + "}}}}]";
@@ -111,7 +112,8 @@ TEST_CASE("glTF: accessors of another type, and sparse ones without whole number
 }
 
 TEST_CASE("glTF: numbers that are not finite are refused with their place", "[asset][gltf]") {
-  // The wrong value is the last one in the file, before the padding.
+  // Byte offset of the wrong number, which is the file's last one: it begins `bytes` before the end, because padding
+  // follows.
   const auto lastElement = [](const std::string& file, size_t bytes) { return std::to_string(file.size() - bytes); };
   std::vector<float> weights = fourEach(1);
   weights.back() = kInfinite;
@@ -125,7 +127,7 @@ TEST_CASE("glTF: numbers that are not finite are refused with their place", "[as
   inverse.numbers("MAT4", std::vector<float>(16, kInfinite));
   CHECK(glbRefusal(inverse.glb()) ==
         "accessor 4 has a number that is not finite, at byte " + lastElement(inverse.glb(), 64));
-  // Offsets inside a `data:` URI are those of the decoded buffer: it has three points, and x of the second is NaN.
+  // In a `data:` URI, a reported offset counts decoded bytes. The buffer has three points, and x of the second is NaN.
   GltfBuilder text;
   text.numbers("VEC3", std::vector<float>(9, 0.0f));
   text.mesh(R"("attributes":{"POSITION":0})");
@@ -231,7 +233,7 @@ TEST_CASE("PLY and STL: one byte behind the end, and several faces that are none
 }
 
 TEST_CASE("polygons that take more steps than there are are refused with their place", "[asset][polygon]") {
-  // An L-shaped face: a triangle fan around its first corner would leave it.
+  // An L-shaped face, in which a triangle fan around the first corner would cover points outside.
   TriangleMesh mesh;
   mesh.points = {{2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 0}};
   for (uint32_t k = 2; k < 6; ++k) mesh.triangles.push_back({0, k - 1, k});

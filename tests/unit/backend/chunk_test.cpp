@@ -1,5 +1,5 @@
 // Tests meshing of chunks from hand-built and random programs: pruning against brute force, all instruction sets,
-// borders, octrees.
+// borders of chunks, octrees.
 
 #include <array>
 #include <atomic>
@@ -38,7 +38,7 @@ ChunkGrid gridAt(int level, Int3 at) {
   return {{at.x * kChunkCells * cell, at.y * kChunkCells * cell, at.z * kChunkCells * cell}, cell, level};
 }
 
-// A random program around a place, whose influence boxes are unbounded here.
+// A random program of shapes around `centre`, whose groups have unbounded influence boxes.
 std::shared_ptr<const FieldProgram> programAround(uint32_t seed, Int3 centre, int32_t extent) {
   std::mt19937 random(seed);
   RandomProgramOptions options;
@@ -63,7 +63,7 @@ bool sameBytes(const MeshPart& a, const MeshPart& b) {
           std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(Vertex)) == 0);
 }
 
-// Meshes a chunk with all samples and attributes evaluated by the whole program, for comparison with pruning.
+// Meshes a chunk without pruning, for comparison: the whole program evaluates all samples and attributes.
 ChunkMesh bruteForce(const FieldProgram& field, const ChunkGrid& grid) {
   ChunkMesh mesh;
   ChunkSamples samples;
@@ -146,7 +146,7 @@ TEST_CASE("a seam's vertices have the attributes of the whole field of their lev
   for (uint32_t seed = 1; seed <= rounds(10); ++seed) {
     const ChunkGrid grid = gridAt(0, {1, -1, 1});
     const Int3 centre{grid.origin.x + kEdge / 2, grid.origin.y + kEdge / 2, grid.origin.z + kEdge / 2};
-    // Fields that differ much, so that seams have many lateral vertices.
+    // The fields of the two levels differ much, so that seams have many vertices on the edges that join both levels.
     const ChunkJob job{grid, programAround(seed, centre, kEdge), programAround(seed + 100, centre, kEdge), 63,
                        neighboursAcross(63)};
     const ChunkMesh mesh = meshOf(bestKernels(), job);
@@ -169,7 +169,8 @@ TEST_CASE("a seam's vertices have the attributes of the whole field of their lev
 }
 
 TEST_CASE("octrees of chunks whose levels' fields differ are closed, and every vertex link is one cycle") {
-  // One fine octant among coarse ones, or one coarse among fine ones: faces, edges and corners between all levels.
+  // One or two fine octants among coarse ones, or one coarse octant among fine ones: faces, edges and corners between
+  // all levels.
   for (uint32_t seed = 1; seed <= 6; ++seed) {
     std::mt19937 random(seed);
     const uint8_t refined = static_cast<uint8_t>(seed == 1   ? 0x01
@@ -177,7 +178,8 @@ TEST_CASE("octrees of chunks whose levels' fields differ are closed, and every v
                                                              : 1u << random() % 8 | 1u << random() % 8);
     std::array<std::shared_ptr<const FieldProgram>, 3> fields;
     for (int level = 0; level < 3; ++level) {
-      // All levels share the inside of a big sphere, so that the union is closed; its contents differ by level.
+      // Each level has the same big sphere with different noise, and void around it, so that the whole surface is
+      // closed.
       ProgramBuilder b(kCell, false, 0);
       const Int3 centre{2 * kEdge, 2 * kEdge, 2 * kEdge};
       const Value ball = b.sphere(centre, 1.7f * static_cast<float>(kEdge), makeLabel(1, 0));
@@ -189,7 +191,8 @@ TEST_CASE("octrees of chunks whose levels' fields differ are closed, and every v
           IntBox::everything(), 0, true);
       fields[static_cast<size_t>(level)] = std::make_shared<FieldProgram>(b.finish());
     }
-    // Octants that alternate around an edge are not allowed in the octree; octants are refined until none do.
+    // The octree forbids octants that alternate between fine and coarse around an edge; octants are refined until none
+    // do.
     uint8_t mask = refined;
     auto fine = [&](int x, int y, int z) { return mask >> (x + 2 * y + 4 * z) & 1; };
     for (bool changed = true; changed;) {
@@ -211,10 +214,10 @@ TEST_CASE("octrees of chunks whose levels' fields differ are closed, and every v
         }
       }
     }
-    // Two octants of level 1 along each axis, each either one chunk or eight of level 0.
+    // There are two octants along each axis; each is one chunk of level 1 or eight chunks of level 0.
     std::vector<ChunkMesh> meshes;
     std::vector<ChunkGrid> grids;
-    auto isFine = [&](int x, int y, int z) {  // in chunks of level 0, from 0 to 3
+    auto isFine = [&](int x, int y, int z) {  // coordinates count chunks of level 0, from 0 to 3
       return x >= 0 && y >= 0 && z >= 0 && x < 4 && y < 4 && z < 4 && fine(x / 2, y / 2, z / 2);
     };
     auto isInside = [](int x, int y, int z) { return x >= 0 && y >= 0 && z >= 0 && x < 4 && y < 4 && z < 4; };
@@ -263,7 +266,7 @@ TEST_CASE("octrees of chunks whose levels' fields differ are closed, and every v
     CHECK(report.manifold());
     CHECK((mask == 0xFF || in_seams > 0));
 
-    // The check must be able to fail: without one of the seams, there is a gap.
+    // Checks that the tests above can fail: if a seam is removed, the mesh has a gap.
     for (size_t i = 0; i < parts.size(); ++i) {
       if (parts[i].number == 0 || parts[i].mesh->indices.empty()) continue;
       std::vector<PlacedPart> fewer = parts;
@@ -309,7 +312,7 @@ TEST_CASE("a backend runs batches, cancels them, and refuses what it cannot do",
     CHECK((*batch)->take());
   }
   SECTION("cancelled") {
-    // No job begins before the cancellation: this job system runs jobs only within help().
+    // This job system runs jobs only within help(), so no job begins before the batch is cancelled.
     class Holding final : public JobSystem {
      public:
       unsigned concurrency() const override { return 2; }
@@ -388,7 +391,7 @@ TEST_CASE("N threads mesh N chunks at one time, whether or not anyone waits", "[
 }
 
 TEST_CASE("what a chunk's job throws comes back from take, on the thread that asks", "[threads]") {
-  // A caller's allocator, written in C++, that throws an exception although it must not.
+  // A C++ allocator of the caller that violates its contract by throwing an exception.
   class Throwing final : public std::pmr::memory_resource {
    public:
     std::atomic<bool> throws{false};

@@ -18,7 +18,7 @@ namespace sgm::vulkan {
 
 class FarDevice {
  public:
-  /// Requires that MemoryOptions::apart is set too.
+  /// Installs the simulation in an engine's device. Precondition: MemoryOptions::apart is set.
   static void wrap(BorrowedDevice& external) {
     state().resolver = external.get_instance_proc_addr;
     external.get_instance_proc_addr = resolve;

@@ -1,5 +1,5 @@
 #pragma once
-// A Vulkan backend on an engine's device whose calls fail on request, and checks of what it leaves there.
+// A Vulkan backend that borrows an engine's device, with Vulkan calls that fail on request.
 
 #include <filesystem>
 #include <memory>
@@ -10,11 +10,11 @@
 
 namespace sgm {
 
-/// Opening the device again after a failure takes no time, because the engine's device stays open.
+/// After a failure, the backend can open the device again without delay, because the engine keeps its own device open.
 struct Faulty : vulkan::KeptEngine {
   vulkan::Faults faults;
 
-  Faulty() : KeptEngine(vulkan::Validation::core) {}  // synchronization errors: see VulkanMachine::silent
+  Faulty() : KeptEngine(vulkan::Validation::core) {}  // checks no synchronization: see VulkanMachine::silent
 
   vulkan::BorrowedDevice lend() {
     vulkan::BorrowedDevice external = engine.lend();
@@ -36,8 +36,8 @@ struct Faulty : vulkan::KeptEngine {
   }
 };
 
-// Tests in files of their own that use the same device, so that its pipelines are made only once.
-void checkFarDevice(Faulty& faulty);       ///< vulkan_far_test.cpp
-void checkMeshesThatStay(Faulty& faulty);  ///< vulkan_resident_faults_test.cpp
+// Tests of other files that use the same device, so that its pipelines are made only once.
+void checkFarDevice(Faulty& faulty);       ///< defined in vulkan_far_test.cpp
+void checkMeshesThatStay(Faulty& faulty);  ///< defined in vulkan_resident_faults_test.cpp
 
 }  // namespace sgm

@@ -128,7 +128,7 @@ Meshed meshed(const MeshKernels& kernels, GridJob job, size_t slabs, bool normal
   return result;
 }
 
-/// Smooth values, noise of many sizes, or both: some far beyond the range of quantised values, some nearly 0.
+/// Smooth values, noise of many magnitudes, or both; some are far beyond the range of quantised values, some nearly 0.
 std::vector<float> someValues(std::mt19937& random, size_t count) {
   std::vector<float> values(count);
   std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
@@ -141,7 +141,7 @@ std::vector<float> someValues(std::mt19937& random, size_t count) {
   return values;
 }
 
-/// A chunk with the same values, for the polygonizer of chunks.
+/// The grid's values as samples of a chunk, for the polygonizer of chunks.
 ChunkSamples chunkOf(const GridJob& job) {
   ChunkSamples samples;
   for (size_t z = 0; z < kChunkSamples; ++z) {
@@ -194,7 +194,7 @@ TEST_CASE("a grid of a chunk's size is meshed as a chunk is") {
 }
 
 TEST_CASE("no chord of a cube's loop of up to five edges is forbidden") {
-  // cells.inl relies on this (kForbids).
+  // The constant kForbids in cells.inl relies on this: loops of up to five edges need no check for forbidden diagonals.
   size_t short_loops = 0, forbidden = 0;
   for (size_t at = 0; at < kCubeLoopBytes; at += size_t{kCubeLoops[at]} + 1) {
     const size_t n = kCubeLoops[at];

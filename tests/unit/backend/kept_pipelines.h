@@ -9,8 +9,8 @@
 
 namespace sgm::vulkan {
 
-/// Pipelines of one device, made once for all device objects that borrow it: software Vulkan takes seconds to make
-/// each. The state is static, as that of Faults, so only one may exist at a time; any thread may make pipelines.
+/// The pipelines of one device, made once for all device objects that borrow the device, because software Vulkan takes
+/// seconds for each. The state is static, so only one KeptPipelines may exist at a time; any thread may make pipelines.
 class KeptPipelines {
  public:
   static void wrap(DeviceTable& table) {
@@ -32,7 +32,7 @@ class KeptPipelines {
     std::mutex mutex;
     DeviceTable calls;
     std::map<VkShaderModule, std::string> code;
-    std::map<std::string, VkPipeline> made;  ///< indexed by the shader's code and its constants
+    std::map<std::string, VkPipeline> made;  ///< key: the shader's code and its specialization constants
   };
   static State& state() {
     static State one;
@@ -69,7 +69,7 @@ class KeptPipelines {
   }
 };
 
-/// An engine whose device keeps its pipelines until the end.
+/// An engine whose device keeps its pipelines until the engine is destroyed.
 struct KeptEngine {
   Engine engine;
 

@@ -43,10 +43,10 @@ class ListMaker {
       case 3:
         return builder_.truncone(frame, a, b, c, label);
       default:
-        return builder_.torus(frame, 2 * a, b, label);  // an op without a specialised path
+        return builder_.torus(frame, 2 * a, b, label);  // the evaluators have no special code for lists of tori
     }
   }
-  /// Adds some primitives of one kind, then some of another, so that lists begin, end and follow each other.
+  /// Adds runs of primitives of one kind, so that lists of equal instructions begin, end and follow each other.
   template <class Add>
   void some(const Add& add) {
     for (int runs = within(1, 3); runs > 0; --runs) {
@@ -80,7 +80,8 @@ class ListMaker {
   }
   FieldProgram finish() {
     FieldProgram program = builder_.finish();
-    // As for most groups after pruning, every sample is known to lie inside the group's bounds.
+    // Three quarters of the groups are not guarded: as for most groups after pruning, all samples are known to lie
+    // inside their bounds.
     for (ProgramGroup& g : program.groups) g.guarded = within(0, 3) == 0;
     return program;
   }
@@ -97,7 +98,7 @@ FieldProgram listedProgram(std::mt19937& random) {
   return maker.finish();
 }
 
-/// A plane with noise on it, with periods of many lattice steps, or with octaves down to less than one step.
+/// A plane displaced by noise: with periods of many lattice steps, or with octaves down to less than one step.
 FieldProgram noisyProgram(std::mt19937& random, const LatticeBox& box, bool coarse) {
   ProgramBuilder builder(1 + static_cast<int32_t>(random() % 1024), false, 0);
   Frame frame;
@@ -149,13 +150,13 @@ TEST_CASE("a box of a lattice is evaluated as its points are") {
     CAPTURE(round);
     LatticeBox box;
     for (int axis = 0; axis < 3; ++axis) {
-      // Boxes like those of bricks, or of any size that a block can hold.
+      // Boxes of 8 or 9 points along each axis, as bricks have, or of 1 to 16 points, the most that a block can hold.
       box.size[static_cast<size_t>(axis)] = round % 3 == 0 ? 1 + random() % 16 : 8 + random() % 2;
       box.origin[axis] = static_cast<int32_t>(random() % 12000) - 9000;
     }
     box.step = 1 << random() % 12;
     const unsigned kind = round % 4;
-    if (kind > 1 && round % 5 == 0) {  // up to the limit of the coordinates
+    if (kind > 1 && round % 5 == 0) {  // the box ends at the largest coordinate
       for (int axis = 0; axis < 3; ++axis)
         box.origin[axis] = 2147483647 - static_cast<int32_t>(box.size[static_cast<size_t>(axis)]) * box.step;
     }

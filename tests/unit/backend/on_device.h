@@ -1,5 +1,5 @@
 #pragma once
-// Checks the mesh parts in the memory of an engine's device, as the engine would read them.
+// Checks mesh parts in the memory of an engine's device, as the engine would read them.
 
 #include <cstring>
 #include <utility>
@@ -11,7 +11,7 @@
 
 namespace sgm {
 
-/// A part in device memory, and its expected contents.
+/// A mesh part in device memory, and the part on the host that it must equal.
 using PartOnDevice = std::pair<const DevicePart*, const MeshPart*>;
 
 /// Waits until the device is idle, copies the parts to the host, and compares them byte by byte.

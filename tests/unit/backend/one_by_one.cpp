@@ -1,5 +1,5 @@
-// Compiles the scalar evaluator without its paths for lists, as a reference that evaluates one instruction after
-// another.
+// Compiles the scalar evaluator without its special code for lists of primitives: a reference that evaluates one
+// instruction after another.
 
 #include <cstdint>
 #include <cstring>

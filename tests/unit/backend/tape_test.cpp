@@ -1,5 +1,5 @@
-// Tests which instructions of a tape are merged into others, and which must not be. The conformance tests check that a
-// tape gives the same bytes as its program.
+// Tests which instructions of a tape (a program as the shaders run it) are merged into others, and which must not be.
+// The conformance tests check that a tape gives the same bytes as its program.
 
 #include "backend/vulkan/tape_schedule.h"
 
@@ -109,7 +109,8 @@ TEST_CASE("what a sum adds is a part of the addition, unless others read it", "[
   CHECK(summed(0.25f, 1).count(Op::morph) == 1);
   CHECK(summed(0.25f, 2).count(Op::kernel) == 0);
   CHECK(summed(0.25f, 2).count(Op::morph) == 1);
-  // Beyond either end, pruning removes one of the two shapes, which is only allowed for an operand of the morph.
+  // If the amount of a morph is 0, 1 or beyond, pruning may remove one of the two shapes, but only while the morph is
+  // an instruction of its own.
   for (const float end : {-0.5f, 0.0f, 1.0f, 2.0f}) {
     CAPTURE(end);
     CHECK(summed(end, 0).count(Op::morph) == 1);

@@ -1,5 +1,5 @@
-// Tests how much host memory meshing on a device allocates once buffers and pipelines exist: the meshes, and a number
-// of small blocks for each batch, not for each chunk.
+// Tests how much host memory meshing on a device allocates once buffers and pipelines exist: only the meshes, and a
+// number of small blocks that depends on the number of batches, and not of chunks.
 
 #include <atomic>
 
@@ -29,7 +29,7 @@ class CountingMemory final : public std::pmr::memory_resource {
   std::atomic<uint64_t> taken_{0};
 };
 
-/// Jobs with balls: every second chunk returns signs, and all have seams, except empty chunks.
+/// Jobs with balls, and empty jobs. All jobs have random seams, and every second one requests the signs of its samples.
 std::vector<ChunkJob> ballsAndVoid(uint32_t seed, size_t count) {
   std::mt19937 random(seed);
   std::vector<ChunkJob> jobs;
@@ -52,8 +52,8 @@ std::vector<ChunkJob> ballsAndVoid(uint32_t seed, size_t count) {
 }
 
 struct Taken {
-  uint64_t memory = 0;  ///< allocations from the backend's memory resource, without the meshes' arrays
-  uint64_t heap = 0;    ///< allocations from this thread's heap, without the meshes' lists of seams
+  uint64_t memory = 0;  ///< number of allocations from the backend's memory resource, without the meshes' arrays
+  uint64_t heap = 0;    ///< number of allocations from this thread's heap, without the meshes' lists of seams
 };
 
 Taken takenBy(Backend& backend, const CountingMemory& memory, std::vector<ChunkJob> jobs) {
@@ -80,7 +80,7 @@ Taken takenBy(Backend& backend, const CountingMemory& memory, std::vector<ChunkJ
   CAPTURE(count, all, arrays, heap, lists);
   REQUIRE(arrays > 4 * count);
   REQUIRE(all >= arrays);
-  // The memory resource itself allocates from the heap, so its allocations are counted there as well.
+  // The memory resource allocates from the heap, so its allocations also count in `heap`.
   REQUIRE(heap >= all + lists);
   return {all - arrays, heap - all - lists};
 }
@@ -89,7 +89,7 @@ Taken takenBy(Backend& backend, const CountingMemory& memory, std::vector<ChunkJ
 
 TEST_CASE("once warm, a batch takes no memory for its chunks but for their meshes", "[vulkan]") {
   CountingMemory memory;
-  // Without the validation layer, which allocates much itself.
+  // The validation layer is off, because it allocates much memory itself.
   VulkanBackendOptions options;
   options.open = [] {
     vulkan::OwnDevice device;

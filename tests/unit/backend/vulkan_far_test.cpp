@@ -35,8 +35,8 @@ VulkanMachine farMachine(Faulty& faulty, const BatchRoom& room = {}) {
   return VulkanMachine(options);
 }
 
-/// Meshes batches of growing and shrinking sizes in the same buffers; host memory must be invalidated before each is
-/// read.
+/// Meshes batches of growing and shrinking sizes in the same buffers; host memory must be invalidated before each batch
+/// is read.
 void compareFar(Faulty& faulty) {
   const VulkanMachine machine = farMachine(faulty);
   REQUIRE(machine);
@@ -68,7 +68,7 @@ void overflowFar(Faulty& faulty) {
   }
 }
 
-/// Makes submissions and waits fail: those of the batch, and those of its download.
+/// Makes submissions and waits fail, both of the batch and of its download.
 void failFar(Faulty& faulty) {
   const std::vector<ChunkJob> jobs = spheres(1, 5);
   uint64_t on_cpu = 0;
@@ -90,8 +90,8 @@ void failFar(Faulty& faulty) {
   CHECK(on_cpu > 0);
 }
 
-/// Checks that meshes stay on the device, both those made there and those uploaded from the host, and that failures do
-/// no harm.
+/// Checks that meshes stay on the device, both meshes made there and meshes uploaded from the host, and that failures
+/// do no harm.
 void stayFar(Faulty& faulty) {
   std::vector<ChunkJob> jobs = spheres(5, 4);
   for (ChunkJob& job : jobs) job.resident = true;
@@ -123,7 +123,8 @@ void stayFar(Faulty& faulty) {
   }
 }
 
-/// Lets the memory for meshes that stay run out: the meshes are still returned, and later ones stay again.
+/// Makes the memory for resident meshes run out: the meshes are still returned, and later meshes stay on the device
+/// again.
 void stayWithoutMemory(Faulty& faulty) {
   std::vector<ChunkJob> jobs = spheres(5, 4);
   for (ChunkJob& job : jobs) job.resident = true;
@@ -133,8 +134,8 @@ void stayWithoutMemory(Faulty& faulty) {
   for (ChunkJob& job : passing) job.resident = false;
   const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
   checkSame(expected, meshesOf(*machine.vulkan, passing));
-  // The batch already has its buffers, so only resident meshes allocate memory now. After this error, the backend does
-  // not retry with a smaller block.
+  // The batch already has its buffers, so only resident meshes allocate memory. After VK_ERROR_UNKNOWN, the backend
+  // does not retry with a smaller block.
   const auto staying = [&] {
     const std::vector<ChunkMesh> found = meshesOf(*machine.vulkan, jobs);
     checkSame(expected, found);
@@ -152,7 +153,8 @@ void stayWithoutMemory(Faulty& faulty) {
   CHECK(machine.vulkan->counters().on_cpu == 0);
 }
 
-/// Destroys parts in any order, on any thread, during or after their copying, also after the backend and its device.
+/// Destroys resident parts in any order, on any thread, during or after their copying, and after the backend and its
+/// device are gone.
 void endAnywhere(Faulty& faulty) {
   constexpr uint32_t kSeed = 20'260'103;
   std::cout << "ending parts, seed " << kSeed << std::endl;
@@ -208,7 +210,7 @@ void endAnywhere(Faulty& faulty) {
   held.clear();
 }
 
-/// Once the backend knows the usual size of a batch's result, it downloads that much together with the batch.
+/// Once the backend knows the usual size of a batch's result, it downloads that many bytes together with the batch.
 void repeatFar(Faulty& faulty) {
   const VulkanMachine machine = farMachine(faulty);
   REQUIRE(machine);

@@ -1,5 +1,6 @@
 // Tests failures of the device: calls fail, the device is lost, its memory is short, or batches are not awaited. The
-// meshes must be the same, because the CPU meshes the missing ones, and the next batch must find a device again.
+// meshes must always be the same, because the CPU makes those that the device does not make, and the next batch must
+// find a device again.
 
 #include <atomic>
 #include <chrono>
@@ -26,7 +27,7 @@ namespace {
 
 bool haveDevice() { return static_cast<bool>(VulkanMachine()); }
 
-/// Loses the device at every call: all meshes must be made, and the next batch must use a device again.
+/// Loses the device at each Vulkan call in turn: all meshes must be made, and the next batch must use a device again.
 void loseDevices(Faulty& faulty) {
   Faults& faults = faulty.faults;
   const VulkanMachine machine = faulty.machine();
@@ -65,7 +66,7 @@ void loseDevices(Faulty& faulty) {
   }
 }
 
-/// Lets memory or pipelines of the device fail: the CPU must mesh those chunks.
+/// Makes calls for memory or pipelines fail: the CPU must mesh the chunks concerned.
 void failCalls(Faulty& faulty) {
   static const std::pair<const char*, VkResult> kFailures[] = {
       {"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY},
@@ -83,7 +84,7 @@ void failCalls(Faulty& faulty) {
   uint64_t on_cpu = 0;
   for (const auto& [call, failure] : kFailures) {
     for (uint32_t round = 0; round < rounds(5); ++round) {
-      // A new machine for each call, since pipelines and buffers are created only once.
+      // Each failing call needs a new machine, because a machine creates its pipelines and buffers only once.
       const VulkanMachine machine = faulty.machine();
       REQUIRE(machine);
       const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
@@ -118,7 +119,7 @@ void leaveNoRoom(Faulty& faulty) {
   }
 }
 
-/// Cancels batches in every state: they must end without meshes.
+/// Cancels batches in every state: each must end without meshes.
 void cancelBatches(Faulty& faulty) {
   const VulkanMachine machine = faulty.machine({64, 384, 64});
   REQUIRE(machine);
@@ -132,8 +133,7 @@ void cancelBatches(Faulty& faulty) {
   REQUIRE(batch);
   (*batch)->cancel();
   CHECK(cancelled(**batch));
-  // Cancelled by the progress callback; the first chunk is meshed by the CPU, since there is room for none on the
-  // device.
+  // The progress callback cancels the batch; the CPU meshes the first chunk, because the device has no room for any.
   std::atomic<int> told{0};
   batch = machine.vulkan->submit(jobs, [&] { return ++told < 3; });
   REQUIRE(batch);
@@ -146,8 +146,8 @@ void cancelBatches(Faulty& faulty) {
   checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
 }
 
-/// Cancels batches from another thread at any moment: each must end with all of its meshes or none, and the next must
-/// be complete.
+/// Cancels batches from another thread at any time: each batch must end with all of its meshes or none, and the next
+/// batch must be complete.
 void cancelAnywhere(Faulty& faulty) {
   using Clock = std::chrono::steady_clock;
   const VulkanMachine roomy = faulty.machine(), scarce = faulty.machine({6144, 384, 6144});
@@ -164,7 +164,7 @@ void cancelAnywhere(Faulty& faulty) {
     checkSame(expected, meshesOf(*machine->vulkan, jobs));
     const auto took = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - before).count();
     for (uint32_t round = 0; round < rounds(20); ++round) {
-      // The failure comes before everything else, after everything else, or anywhere between.
+      // The batch is cancelled immediately, or at any time up to its usual duration.
       const auto wait = round == 0 ? 0 : static_cast<int64_t>(random() % static_cast<uint64_t>(took + 1));
       const bool polls = random() % 2 == 0;
       CAPTURE(round, wait, polls);
@@ -197,8 +197,7 @@ void cancelAnywhere(Faulty& faulty) {
   CHECK(whole >= 2);
 }
 
-/// Checks that cached pipelines are found by the next backend, replaced if damaged, and not needed if they cannot be
-/// stored.
+/// Checks that the next backend finds cached pipelines, replaces damaged ones, and works if they cannot be stored.
 void keepPipelines(Faulty& faulty) {
   const TemporaryFolder folder;
   const std::vector<ChunkJob> jobs = spheres(6, 2);
@@ -237,11 +236,12 @@ void keepPipelines(Faulty& faulty) {
 }
 
 #ifdef SGM_SCARCE_THREADS
-/// If no thread can be started that compiles the shaders, the first batch must wait for them.
+/// If no thread can be started to compile the shaders in the background, the first batch must wait for the shaders.
 void failThreads(Faulty& faulty) {
   std::vector<ChunkJob> jobs = spheres(7, 3);
   for (ChunkJob& job : jobs) job.prompt = true;
-  // A driver may fail to start its threads, too; on this device it has compiled the pipelines in earlier tests.
+  // The driver may also fail to start its own threads; on this device, earlier tests have already made it compile the
+  // pipelines.
   const VulkanMachine machine = faulty.machine();
   REQUIRE(machine);
   const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
@@ -288,6 +288,6 @@ TEST_CASE("a device of our own is opened anew once it is lost", "[vulkan]") {
     CHECK(machine.vulkan->counters().device_lost == 1);
     CHECK(machine.vulkan->counters().on_cpu == jobs.size());
   }
-  // The device's destruction is also checked for leaks by the validation layer.
+  // The validation layer also checks for leaks when the device is destroyed.
   CHECK(VulkanMachine::silent(log->texts()));
 }

@@ -16,8 +16,8 @@ using namespace sgm;
 
 namespace {
 
-/// Blocks the creation of pipelines until it is opened. Its state is static, because the device's table holds plain
-/// functions: only one may exist at a time.
+/// Blocks the creation of pipelines until open() is called. Its state is static, because the device's table holds plain
+/// functions: only one Gate may exist at a time.
 class Gate {
  public:
   explicit Gate(bool is_open) { state() = {}, state().open = is_open; }
@@ -103,7 +103,7 @@ void awaitReady(const VulkanMachine& machine, const std::vector<ChunkJob>& jobs,
   }
 }
 
-/// The destruction of a backend must wait for one pipeline at most.
+/// Tests that the destruction of a backend waits for the creation of one pipeline at most.
 void endEarly(vulkan::Engine& engine) {
   Gate gate(false);
   std::thread opener;
@@ -113,7 +113,7 @@ void endEarly(vulkan::Engine& engine) {
     const std::vector<ChunkJob> jobs = inAHurry(13, 2);
     (void)meshesOf(*machine.vulkan, jobs);
     gate.awaitAsked(1);
-    // After this delay, the backend usually is in its destructor; if not, the test only proves less.
+    // After this delay, the backend is usually in its destructor; otherwise the test passes, but proves less.
     opener = std::thread([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(200));
       gate.open();
@@ -123,7 +123,7 @@ void endEarly(vulkan::Engine& engine) {
   CHECK(gate.asked() <= 2);
 }
 
-/// The CPU must mesh until the shaders are ready, then the device.
+/// Tests that the CPU meshes until the shaders are ready, and the device afterwards.
 void meshUntilReady(vulkan::Engine& engine) {
   Gate gate(false);
   const VulkanMachine machine = gate.machine(engine);
@@ -132,7 +132,7 @@ void meshUntilReady(vulkan::Engine& engine) {
   CHECK(usual > 1);
   const std::vector<ChunkJob> jobs = inAHurry(11, 6);
   const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
-  // While the gate is shut, this would never return if it waited for the pipelines.
+  // While the gate is shut, these calls would never return if they waited for the pipelines.
   for (int round = 1; round <= 3; ++round) {
     checkSame(expected, meshesOf(*machine.vulkan, jobs));
     CHECK(machine.vulkan->counters().on_cpu == jobs.size() * static_cast<size_t>(round));
@@ -146,7 +146,7 @@ void meshUntilReady(vulkan::Engine& engine) {
   CHECK(machine.warnings.empty());
 }
 
-/// A job that waits for the device must use pipelines that are being made in the background.
+/// A job that waits for the device must use the pipelines that are already being made in the background.
 void shareWhatIsMade(vulkan::Engine& engine) {
   Gate gate(false);
   const VulkanMachine machine = gate.machine(engine);
@@ -164,7 +164,7 @@ void shareWhatIsMade(vulkan::Engine& engine) {
   CHECK(gate.asked() == vulkan::kernels);
 }
 
-/// Shaders that cannot be made must cause a line in the log, and no missing mesh.
+/// Tests that shaders which cannot be made cause a line in the log, and no missing mesh.
 void failToMake(vulkan::Engine& engine) {
   Gate gate(true);
   const VulkanMachine machine = gate.machine(engine);
@@ -184,7 +184,7 @@ void failToMake(vulkan::Engine& engine) {
 TEST_CASE("jobs in a hurry are meshed by the CPU until the device is ready for them", "[vulkan]") {
   if (!VulkanMachine()) return;
   vulkan::KeptEngine kept;
-  // This test comes first, while compiling pipelines takes long, since none is cached yet.
+  // This test comes first, because the pipelines are not cached yet, so that compiling them takes long.
   endEarly(kept.engine);
   meshUntilReady(kept.engine);
   shareWhatIsMade(kept.engine);

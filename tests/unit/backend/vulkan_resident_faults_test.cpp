@@ -25,7 +25,7 @@ const MeshPart& partAt(const ChunkMesh& mesh, size_t part) {
   return mesh.seams.empty() ? none : mesh.seams[part - 1];
 }
 
-/// The device parts of the requested meshes, kMeshParts for each.
+/// The device parts of all meshes, kMeshParts for each mesh; null if a part is not on the device.
 using Drawn = std::vector<std::shared_ptr<const DevicePart>>;
 
 Drawn drawnOf(const std::vector<ChunkMesh>& meshes) {
@@ -35,12 +35,12 @@ Drawn drawnOf(const std::vector<ChunkMesh>& meshes) {
 }
 
 struct Stayed {
-  size_t wanted = 0, there = 0;  ///< number of parts with triangles, and of those on a device
-  size_t lost = 0;               ///< number of those on a lost device
-  uint64_t bytes = 0;            ///< bytes on devices that are not lost
+  size_t wanted = 0, there = 0;  ///< number of parts with triangles, and number of parts on a device
+  size_t lost = 0;               ///< number of parts on a lost device
+  uint64_t bytes = 0;            ///< bytes of the device memory that holds parts, without lost devices
 };
 
-/// Checks the bytes of all parts on the device. whole: either all parts of a chunk are there, or none.
+/// Compares the bytes of all parts on the device. whole: requires that all parts of a chunk are there, or none.
 Stayed checkStayed(vulkan::Engine& engine, const std::vector<ChunkMesh>& expected, const Drawn& drawn, bool whole) {
   REQUIRE(drawn.size() == expected.size() * kMeshParts);
   Stayed stayed;
@@ -90,11 +90,11 @@ constexpr Failure kRefusals[] = {
     {"vkResetCommandPool", VK_ERROR_OUT_OF_DEVICE_MEMORY},
     {"vkCreateBuffer", VK_ERROR_OUT_OF_HOST_MEMORY},
     {"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY},
-    {"vkAllocateMemory", VK_ERROR_UNKNOWN},  // after this error, no smaller block is tried
+    {"vkAllocateMemory", VK_ERROR_UNKNOWN},  // after this error, the backend does not try a smaller block
     {"vkMapMemory", VK_ERROR_MEMORY_MAP_FAILED},
 };
 
-/// Meshes that stay on the device, while calls fail from time to time.
+/// Runs batches whose meshes stay on the device, while Vulkan calls fail from time to time.
 class Strikes {
  public:
   Strikes(Faulty& faulty, uint32_t seed) : faulty_(faulty), random_(seed) {
@@ -111,9 +111,9 @@ class Strikes {
     }
   }
 
-  /// Runs a batch, or uploads its meshes, while one call may fail.
+  /// Runs a batch, or uploads its meshes, while one call may fail. scarce: there is memory for some of the meshes only.
   void one(bool scarce) {
-    // Memory is requested only by a backend that has no blocks yet, so a new one is created.
+    // Only a backend that has no memory blocks yet allocates memory, so a new backend is made from time to time.
     if (scarce != (cap_ != UINT64_MAX) || random_() % 3 == 0)
       renew(scarce ? largest_ + random_() % (all_.bytes - largest_) : UINT64_MAX);
     const Failure failure = kRefusals[random_() % std::size(kRefusals)];
@@ -144,7 +144,7 @@ class Strikes {
     in_vain += struck && on_cpu == 0 && stayed.there == 0;
     partly += stayed.there > 0 && stayed.there < all_.wanted;
   }
-  /// Checks that the next batch finds a device with memory.
+  /// Checks that the next batch finds a device that works and has memory.
   void again() {
     const BackendCounters before = counters();
     REQUIRE(before.resident == 0);
@@ -157,11 +157,11 @@ class Strikes {
   }
 
   unsigned losses = 0;   ///< number of lost devices
-  unsigned in_vain = 0;  ///< number of times that the device did its work, but no mesh stayed
-  unsigned partly = 0;   ///< number of times that only some meshes stayed
+  unsigned in_vain = 0;  ///< number of rounds in which the device did its work, but no mesh stayed on it
+  unsigned partly = 0;   ///< number of rounds in which only some meshes stayed on the device
 
  private:
-  /// Memory that was being copied when a wait failed is freed once the copy has ended; waits for that.
+  /// Waits until only `bytes` are resident: after a failed wait, memory is freed only when its copy has ended.
   BackendCounters countersOnceOnlyThese(uint64_t bytes) const {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     while (counters().resident != bytes && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
@@ -199,10 +199,11 @@ class Strikes {
   std::vector<ChunkJob> jobs_ = spheres(1, 5);
   std::vector<ChunkMesh> expected_;
   Stayed all_;
-  uint64_t largest_ = 0;  ///< the largest size of a chunk in bytes
+  uint64_t largest_ = 0;  ///< size in bytes of the largest chunk's memory
 };
 
-/// Lets any call of keeping or uploading meshes fail, with enough memory and with memory for some meshes only.
+/// Makes any call fail that keeps meshes on the device or uploads them, with enough memory and with memory for some
+/// meshes only.
 void strikeMeshesThatStay(Faulty& faulty) {
   constexpr uint32_t kSeed = 20'260'104;
   std::cout << "striking meshes that stay, seed " << kSeed << std::endl;
@@ -219,7 +220,7 @@ void strikeMeshesThatStay(Faulty& faulty) {
   }
 }
 
-/// An engine's device that was lost must not be used again: the CPU meshes from then on.
+/// Tests that an engine's device is not used again after its loss: the CPU meshes from then on.
 void loseForGood(Faulty& faulty) {
   BackendRequest request;
   request.kind = BackendKind::vulkan;

@@ -18,11 +18,11 @@ using namespace sgm;
 
 namespace {
 
-/// Passes parts between threads, so that a part is destroyed by another thread than the one that made it.
+/// Passes parts between threads, so that a part is destroyed by a different thread than the one that made it.
 class Exchanged {
  public:
   using Part = std::shared_ptr<const DevicePart>;
-  /// Stores these parts, and destroys those stored before.
+  /// Stores these parts in place of the previous ones, and destroys the latter.
   void pass(std::vector<Part> parts) {
     const std::scoped_lock lock(mutex_);
     std::swap(parts, parts_);
@@ -33,14 +33,15 @@ class Exchanged {
   std::vector<Part> parts_;
 };
 
-/// Loses the device at one of its submissions. It uses no lock, which would order the threads and hide races.
+/// Makes one of the device's submissions fail with a lost device. It uses no lock, which would order the threads and
+/// hide races.
 class LosingSubmit {
  public:
   static void wrap(vulkan::DeviceTable& table) {
     real() = table.vkQueueSubmit;
     table.vkQueueSubmit = submit;
   }
-  /// Makes the nth submission from now on fail, counted from 1.
+  /// From now on, makes the nth submission fail, counted from 1.
   static void arm(int nth) { left().store(nth); }
 
  private:
@@ -58,7 +59,7 @@ class LosingSubmit {
   }
 };
 
-/// Counts of the threads' findings, because only one thread at a time may use Catch's assertions.
+/// Results of the threads as counts, because only one thread at a time may use Catch's assertions.
 struct Found {
   std::atomic<unsigned> batches{0}, left{0}, wrong{0}, refused{0}, resident{0}, brought{0};
 };
@@ -111,9 +112,9 @@ void work(Backend& backend, const std::vector<ChunkJob>& jobs, const std::vector
 
 TEST_CASE("threads share what stays on a lent device, and its loss", "[vulkan][threads]") {
   if (!VulkanMachine()) return;
-  // Without the validation layer, whose locks would hide data races.
+  // The validation layer is off, because its locks would hide data races.
   vulkan::KeptEngine kept(vulkan::Validation::none);
-  // After a loss, two borrowed devices exist for a while, and share the engine's queue.
+  // After a loss, the lost and the new borrowed device exist together for a while, and share the engine's queue.
   std::mutex queue;
   std::optional<vulkan::DeviceTable> replaced;
   VulkanBackendOptions options;
@@ -123,7 +124,7 @@ TEST_CASE("threads share what stays on a lent device, and its loss", "[vulkan][t
     external.unlock = [](void* user) { static_cast<std::mutex*>(user)->unlock(); };
     external.user = &queue;
     external.replace_calls = [&](vulkan::DeviceTable& table) {
-      // Replaced only once: threads may be calling the replaced functions already.
+      // The functions are replaced only once, because other threads may already be calling them.
       if (!replaced) {
         vulkan::KeptPipelines::wrap(table);
         LosingSubmit::wrap(table);

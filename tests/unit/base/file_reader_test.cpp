@@ -1,4 +1,4 @@
-// Files read whole: what comes back is what is in them, and what cannot be read is told with its reason.
+// Tests reading whole files: the result is the contents, or an error with the reason.
 
 #include "base/file_reader.h"
 
@@ -85,7 +85,7 @@ TEST_CASE("pipes are refused, or read to their end", "[base][files]") {
     REQUIRE(read);
     CHECK((*read == bytes));
   }
-  // More than the limit is not waited for.
+  // Reading stops at the limit; /dev/zero never ends.
   CHECK(refusal(readFile("/dev/zero", 100'000, Readable::all_but_folders), Code::limit) ==
         "/dev/zero is larger than 100000 bytes");
 }

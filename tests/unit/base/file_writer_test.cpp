@@ -36,7 +36,7 @@ unsigned modeOf(const fs::path& path) {
   return there.st_mode & 07777;
 }
 
-constinit UnfinishedFiles unfinished;  // used in a signal handler
+constinit UnfinishedFiles unfinished;  // global, because a signal handler uses it
 
 constexpr FileWriter::Naming kBoth[] = {FileWriter::Naming::nameless, FileWriter::Naming::named};
 
@@ -115,11 +115,11 @@ TEST_CASE("what cannot be written to is said at once", "[base][files]") {
   refused(folder.path, "folder");
   refused("/dev/null", "regular file");
   CHECK(folder.files().empty());
-  // A name of the greatest allowed length leaves no room for the temporary file's suffix.
+  // A name of the greatest allowed length, to which the temporary file's suffix cannot be added.
   Result<FileWriter> file = FileWriter::create(folder.path / std::string(255, 'n'));
   REQUIRE(file);
   REQUIRE(file->commit());
-  if (geteuid() == 0) return;  // the superuser may write everywhere
+  if (geteuid() == 0) return;  // the superuser may write everywhere, so the test would fail
   std::ofstream(folder.path / "guarded") << "before";
   REQUIRE(chmod((folder.path / "guarded").c_str(), 0444) == 0);
   refused(folder.path / "guarded", "Permission denied");

@@ -14,7 +14,7 @@ using namespace sgm;
 
 namespace {
 
-// Accepts all jobs, and runs none until it is told to.
+// A job system that accepts all jobs, and runs none until runAll() is called.
 class LateJobs final : public JobSystem {
  public:
   unsigned concurrency() const override { return 4; }
@@ -37,7 +37,7 @@ class ImmediateJobs final : public JobSystem {
   bool help() override { return false; }
 };
 
-// Accepts one job, which runs on a thread of its own; records whether help() was called.
+// A job system that accepts one job, which runs on a thread of its own; records whether help() was called.
 class OneJobJobs final : public JobSystem {
  public:
   ~OneJobJobs() override {
@@ -63,7 +63,7 @@ TEST_CASE("who waits for a loop helps the job system meanwhile", "[threads]") {
   bool in_time = false;
   const std::thread::id caller = std::this_thread::get_id();
   parallelFor(jobs, 2, [&](size_t) {
-    // Each thread takes one share; only the caller's ends before help() is called.
+    // The two indices run on two threads; only the caller's ends before the caller calls help().
     ++begun;
     while (begun < 2) std::this_thread::yield();
     if (std::this_thread::get_id() == caller) return;

@@ -1,4 +1,4 @@
-// Numbers as text, which no locale changes.
+// Tests numbers as text, which must not depend on the locale.
 
 #include "base/plain_text.h"
 

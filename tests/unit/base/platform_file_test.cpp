@@ -75,7 +75,7 @@ TEST_CASE("bytes are read and written at places, and cut off", "[base][files]") 
   char two[2];
   CHECK(readAt(file.number(), two, 2, 5) == 2);
   CHECK(std::memcmp(two, "b6", 2) == 0);
-  CHECK(readNext(file.number(), two, 2) == 0);  // the position is at the end
+  CHECK(readNext(file.number(), two, 2) == 0);  // readAt() leaves the position unchanged, at the end of the file
   CHECK(readAt(file.number(), two, 2, 100) == 0);
   CHECK(cutFile(file.number(), 3) == 0);
   CHECK(contentOf(path) == "012");
@@ -115,7 +115,7 @@ TEST_CASE("names are replaced, exchanged, removed and given", "[base][files]") {
   CHECK_FALSE(fs::exists(b));
 
   const File nameless(openNamelessFile(folder.path));
-  if (!nameless) return;  // the file system does not support files without a name
+  if (!nameless) return;  // the file system does not support nameless files
   REQUIRE(writeNext(nameless.number(), "none", 4) == 4);
   CHECK(fs::is_empty(folder.path));
   REQUIRE(nameFile(nameless.number(), a) == 0);

@@ -1,4 +1,4 @@
-// The run of a child process from start to end: its streams, its limits, and what it leaves behind.
+// Tests child processes from start to end: their streams, their limits, and what they leave behind.
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -16,7 +16,7 @@ using Stop = ProcessOutput::Stop;
 
 namespace {
 
-/// For a standard input that is a pipe.
+/// Settings that pass the text to the child's standard input through a pipe.
 RunSettings told(const std::string& text) {
   RunSettings run = within(std::chrono::minutes(1));
   run.input = text;
@@ -93,7 +93,7 @@ TEST_CASE("a child that says too much is ended", "[base][process][threads]") {
     run.max_output = most;
     CHECK((outputOf(isolatedShell("printf 12345"), run).stop == Stop::none) == (most >= 5));
   }
-  // The beginning of its complaints is kept, and they have no limit.
+  // Only the first 4,096 bytes of standard error are kept, and its size has no limit.
   const ProcessOutput loud = outputOf(isolatedShell("yes | head -c 1000000 >&2; echo done"));
   CHECK(loud.stop == Stop::none);
   CHECK(loud.output == "done\n");
@@ -111,13 +111,13 @@ TEST_CASE("a grandchild that holds the streams is not waited for", "[base][proce
   CHECK(watch.seconds() < 20);
   CHECK(said.exit.succeeded());
   CHECK(endsSoon(std::stoi(said.output)));
-  // Nor one that is in a session of its own, and goes on talking; only that one is nobody's to end.
+  // A grandchild in a session of its own that continues to write is not waited for, and not killed.
   const ProcessOutput escaped =
       outputOf(isolatedShell("told=$(mktemp -u); mkfifo $told; setsid sh -c 'echo $$; : >$0; exec yes >&2' $told & "
                              "read -r end <$told; rm $told; sleep 0.3; echo done"));
   CHECK(escaped.exit.succeeded());
   CHECK(escaped.output.ends_with("done\n"));
-  CHECK(endsSoon(std::stoi(escaped.output)));  // by its own broken pipe
+  CHECK(endsSoon(std::stoi(escaped.output)));  // the grandchild ends by SIGPIPE, because its pipe is closed
 }
 
 TEST_CASE("a host that ignores its children's ends still has their output", "[base][process][threads]") {
@@ -168,7 +168,7 @@ TEST_CASE("a child is ended on request", "[base][process][threads]") {
   CHECK(said.stop == Stop::cancelled);
   CHECK(watch.seconds() < 20);
   CHECK_FALSE(runs(std::stoi(said.output)));
-  // The request holds for good.
+  // A cancelled RunSettings stays cancelled, so a second run ends as well.
   CHECK(outputOf(isolatedShell("sleep 1000"), run).stop == Stop::cancelled);
 }
 

@@ -1,4 +1,4 @@
-// The start of a child process: its program, environment, streams, signals and limits.
+// Tests the start of child processes: their program, environment, streams, signals and limits.
 
 #include "base/platform/process.h"
 
@@ -16,7 +16,7 @@ using Kind = ProcessExit::Kind;
 
 namespace {
 
-/// Sets a variable of the environment while it lives.
+/// Sets an environment variable during its lifetime.
 class Variable {
  public:
   Variable(const char* name, const std::string& value) : name_(name) {
@@ -92,7 +92,8 @@ TEST_CASE("a name without a slash is looked for in PATH", "[base][process]") {
   CHECK(missing.error().message == "sgm_test_program cannot be run: No such file or directory");
   makeScript(folder, "second/sgm_test_program", "echo second");
   CHECK(outputOf(named("sgm_test_program")).output == "second\n");
-  // A file that cannot be run hides no other one, but is the reason if there is none.
+  // A file that cannot be executed is skipped if a later folder of the path has the program; otherwise it is the reason
+  // of the error.
   makeFile(folder, "first/sgm_test_program", "text");
   CHECK(outputOf(named("sgm_test_program")).output == "second\n");
   std::filesystem::remove(second + "/sgm_test_program");
@@ -151,7 +152,7 @@ TEST_CASE("streams lead to files, to each other and to nothing", "[base][process
   CHECK(status.bytes == std::string("complaint\n").size());
   settings.output = settings.error = {Stream::none};
   CHECK(outputOf(settings).exit.succeeded());
-  // A copy was used.
+  // The child received a copy of the descriptor, which is still open here.
   CHECK(fcntl(input.number(), F_GETFD) >= 0);
   settings.input = {Stream::file, 100'000};
   CHECK_FALSE(Process::start(settings));
@@ -219,7 +220,7 @@ TEST_CASE("a child has none of the host's files, or those that were opened to be
   const int leaked = open("/dev/null", O_RDONLY);
   REQUIRE(leaked >= 3);
   const File ours(openFile("/dev/null", kRead));
-  // Of the list's own folder there is one more.
+  // Descriptor 3 is the folder that `ls` itself has opened.
   CHECK(outputOf(shell("ls /proc/self/fd")).output == "0\n1\n2\n3\n");
   const auto inherits = [](int file) {
     ProcessSettings settings = shell("[ -e /proc/$$/fd/" + std::to_string(file) + " ]");
@@ -243,7 +244,7 @@ TEST_CASE("limits hold when the program starts, and cannot be raised", "[base][p
              limits) == "refused\n");
   limits.memory_bytes = uint64_t{512} << 20;
   const std::string memory = said("ulimit -v", limits);
-  CHECK((memory == "524288\n" || memory == "unlimited\n"));  // the latter under a sanitizer
+  CHECK((memory == "524288\n" || memory == "unlimited\n"));  // "unlimited" is printed under a sanitizer
 }
 
 TEST_CASE("a limit of processor time ends a child", "[base][process]") {

@@ -1,5 +1,5 @@
 #pragma once
-// Child processes of tests: commands of the shell.
+// Child processes for tests: shell commands.
 
 #include <chrono>
 #include <filesystem>
@@ -19,7 +19,7 @@ inline platform::ProcessSettings shell(const std::string& command) {
   return settings;
 }
 
-/// The same in a process group and an environment of its own.
+/// A shell command as from shell(), but in a process group and an environment of its own.
 inline platform::ProcessSettings isolatedShell(const std::string& command) {
   platform::ProcessSettings settings = shell(command);
   settings.environment = {"PATH=/usr/local/bin:/usr/bin:/bin"};

@@ -68,7 +68,7 @@ ChunkRecord randomRecord(std::mt19937& random, uint32_t most) {
   return record;
 }
 
-/// Checks the contract of decodeChunk by another method: by random access instead of one pass.
+/// Checks the contract of decodeChunk by a second method: random access to the record instead of one pass.
 bool canBeDrawn(const ChunkRecord& record) {
   const PackedMesh& mesh = record.mesh;
   std::vector<int> vertex_owner(mesh.vertices.size(), -1), index_owner(mesh.indices.size(), -1);

@@ -1,4 +1,4 @@
-// Damage to chunks: every kind is found, and as what it is.
+// Damages chunks in every way, and tests that each defect is found and classified correctly.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 using Body = MeshPart;
 uint32_t any(std::mt19937& random, size_t count) { return static_cast<uint32_t>(random() % count); }
 
-/// Makes two far vertices of the body one: none of the vertices around them is the same.
+/// Merges two vertices of the body that are far apart: they have no common neighbour.
 void pinch(Body& body, std::mt19937& random) {
   std::vector<std::vector<uint32_t>> around(body.vertices.size());
   for (size_t at = 0; at < body.indices.size(); ++at) {
@@ -36,7 +36,8 @@ void pinch(Body& body, std::mt19937& random) {
   }
 }
 
-/// Moves a vertex to the middle between two others, which are moved by a step where they have none.
+/// Moves a vertex to the midpoint of two others; moves `from` by one step along an axis if the midpoint is not an
+/// integer there.
 void putBetween(Body& body, uint32_t moved, uint32_t from, uint32_t to) {
   Vertex &v = body.vertices[moved], &a = body.vertices[from];
   const Vertex& b = body.vertices[to];
@@ -54,7 +55,7 @@ struct Damage {
 };
 
 const std::vector<Damage>& damages() {
-  // With a corner that is not in the border, where an edge has one triangle anyway.
+  // Picks a random triangle with a corner inside the chunk: in the chunk's border, an edge with one triangle is normal.
   static const auto triangle = [](PlacedChunk& chunk, std::mt19937& random) {
     Body& body = chunk.mesh.body;
     for (;;) {
@@ -178,7 +179,7 @@ const std::vector<Damage>& damages() {
       {"a triangle goes through another",
        [](PlacedChunk& chunk, std::mt19937& random) {
          Body& body = chunk.mesh.body;
-         // One whose middle is inside on every grid.
+         // Picks a triangle whose middle lies well inside the chunk.
          std::array<uint32_t, 3> t{};
          std::array<int, 3> middle{}, across{};
          do {
@@ -190,7 +191,7 @@ const std::vector<Damage>& damages() {
            const double length = std::sqrt(static_cast<double>(terms.square));
            across = {static_cast<int>(100 * terms.x / length), static_cast<int>(100 * terms.y / length),
                      static_cast<int>(100 * terms.z / length)};
-           // Not a sliver, and its middle far enough inside of the chunk.
+           // Rejects slivers and small triangles; the loop's condition rejects middles near the chunk's border.
            if (isSliver(terms) || terms.square < int64_t{1} << 28) middle[0] = 0;
          } while (*std::min_element(middle.begin(), middle.end()) < 200 ||
                   *std::max_element(middle.begin(), middle.end()) > kChunkCells * kSubcell - 200);

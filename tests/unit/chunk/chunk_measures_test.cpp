@@ -1,4 +1,5 @@
-// Measures of single chunks: those of the samples are sound and as the whole mesh's.
+// Tests measures of single chunks: chunks of the sample grammars are sound, and their measures add up to those of the
+// whole mesh.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,7 @@ using namespace sgm::measure;
 
 namespace {
 
-/// Turned boxes, finite, so that all of the world can be meshed and closed.
+/// Rotated boxes in a finite world, so that the whole world can be meshed and its surface is closed.
 const char* const kFewBoxes =
     "sgm 1; units m; domain finite box(96m, 96m, 96m) empty; start Heap;\n"
     "rule Heap {\n"
@@ -95,7 +96,7 @@ TEST_CASE("chunks and seams of mixed levels add up to the area and the volume of
     }
     CHECK(sums.sound());
     CHECK(sums.seams > 0);
-    // To the last bit: integers cancel.
+    // The sum is exactly 0, because integers cancel without rounding.
     CHECK(cross == std::array<int64_t, 3>{});
     const Result<WorldMesh> welded = weld(parts, {0, 0, 0});
     REQUIRE(welded);
@@ -124,7 +125,7 @@ TEST_CASE("open chunks have the area and the flux of their triangles") {
     const asset::TriangleMesh triangles = trianglesOf(*welded);
     const AreaVolume whole = areaVolume({triangles.points, triangles.triangles}, *jobs);
     CHECK(std::fabs(sums.area - whole.area) < 1e-9 * whole.area);
-    // Some 100 m from the origin what is added is far larger than what is left.
+    // The origin is some 100 m away, so the summed terms are far larger than their sum.
     CHECK(std::fabs(sums.flux - whole.volumeAbout({0, 0, 0})) < 1e-9 * 300 * whole.area);
     for (int axis = 0; axis < 3; ++axis) {
       CHECK(std::fabs(sums.area_vector[static_cast<size_t>(axis)] - whole.area_vector[axis]) < 1e-9 * whole.area);

@@ -1,4 +1,5 @@
-// Tests offsets to the next coarser level: they lead to its surface, and neighbouring chunks have equal ones.
+// Tests the geomorph offsets to the next coarser level: they lead to that level's surface, and neighbouring chunks have
+// equal offsets.
 
 #include <cmath>
 #include <map>
@@ -27,7 +28,7 @@ std::vector<ChunkRequest> block(int level, uint8_t seams) {
   return requests;
 }
 
-/// The coarser level's field at a place in units, interpolated linearly from the nearest lattice point by the gradient.
+/// The coarser level's field value at the whole unit nearest to `p`, which is in units.
 double coarseValue(const WorldField& world, int level, const std::array<double, 3>& p) {
   Int3 at;
   for (int axis = 0; axis < 3; ++axis) at[axis] = static_cast<int32_t>(std::lround(p[static_cast<size_t>(axis)]));
@@ -44,7 +45,7 @@ double coarseValue(const WorldField& world, int level, const std::array<double, 
 }  // namespace
 
 TEST_CASE("morph offsets lead to the coarser surface, and neighbours agree") {
-  // The coarser level omits this noise, so that the two surfaces differ by fractions of a cell.
+  // The coarser level omits the noise of this grammar, so that the two surfaces differ by fractions of a cell.
   const WorldField world(
       settingsOf("sgm 1; units m; domain infinite; layer l cell 64m reach 40m { start Ball; }\n"
                  "rule Ball { at(cell.center) { displace 0.4m*fractal(1.5m) amp 0.4m { sphere(26m); } } }\n",

@@ -32,7 +32,7 @@ inline std::string described(const ChunkMeasures& measures) {
   return text;
 }
 
-/// A grammar, and places of it where there is much to mesh.
+/// A sample grammar, and a region of its world that has much surface.
 struct Excerpt {
   const char* grammar;
   int32_t cell;
@@ -58,7 +58,7 @@ inline ChunkRequest randomRequest(std::mt19937& random, const Excerpt& scene) {
   return request;
 }
 
-/// A chunk with much in it, without sharp features.
+/// A chunk with much surface, without sharp features.
 inline PlacedChunk anyChunk(std::mt19937& random) {
   static const WorldField world(settingsOf(yardstick("cave.sgm"), 256, 3), std::pmr::get_default_resource());
   for (;;) {

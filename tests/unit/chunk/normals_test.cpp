@@ -8,7 +8,7 @@ using namespace sgm;
 
 namespace {
 
-/// The share of a mesh's area whose triangles have vertex normals that point to their other side.
+/// Share of the mesh's area in triangles whose vertex normals point to the wrong side of the triangle.
 double shareAstray(const std::string& rules) {
   const WorldField world(settingsOf("sgm 1; units m; start Main;\n" + rules, 128), std::pmr::get_default_resource());
   std::vector<ChunkRequest> requests;

@@ -1,4 +1,5 @@
-// Tests sharp features of chunks: closed for any drawn octree, crisp, and independent of how a chunk was made.
+// Tests sharp features in chunks: surfaces are closed for any octree, edges are crisp, and the result does not depend
+// on how a chunk was made.
 
 #include <algorithm>
 #include <cmath>
@@ -146,7 +147,7 @@ TEST_CASE("a sharp chunk is the same with a wider field, in any company, with an
 }
 
 TEST_CASE("edges of turned boxes are straight in streamed chunks of every level") {
-  // A box large enough for every level, at a random angle.
+  // A randomly rotated box, which is large enough to be visible at every level.
   for (uint32_t seed = 1; seed <= std::max(rounds(3), 3u); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);

@@ -20,7 +20,7 @@ using namespace sgm;
 
 namespace {
 
-/// Passages and halls, and a ball in place of a hall, which has no texture coordinates of its own.
+/// Passages between balls; a ball has no texture coordinates of its own.
 const char* const kPassages =
     "sgm 1; units m; domain infinite solid; layer net cell 48m reach 44m { start Node; }\n"
     "rule Node { cut { at(c()) sphere(6m); for f in cell.links(tree 2) { Way(c(), f); } } }\n"
@@ -31,7 +31,7 @@ std::string passages() {
          "let hub(c) = c.point(jitter 0.2);\n";
 }
 
-/// The surfaces of the chunks from (low, low, low) on, eight chunks of level 0 along each axis.
+/// Meshes a cube with an edge of eight chunks of level 0, whose lowest chunk is (low, low, low), in chunks of `level`.
 std::vector<ChunkSurface> surfacesFrom(const WorldField& field, int level, int32_t low) {
   std::vector<ChunkRequest> requests;
   const int32_t first = low >> level, last = (low + 8) >> level;
@@ -65,7 +65,7 @@ TEST_CASE("chunks that meet have the same texture coordinates on their border") 
     const std::string text = in_cave ? caveText() : passages();
     const WorldField field(settingsOf(text, 512, 3), std::pmr::get_default_resource());
     for (int level = 0; level < 2; ++level) {
-      // For each vertex on a border, by its place: its texture coordinates in each of the chunks.
+      // Texture coordinates of the vertices on borders, by position and then by chunk.
       std::map<std::array<int64_t, 3>, std::map<size_t, std::vector<Wedge>>> shared;
       size_t chunk = 0, vertices = 0;
       for (const ChunkSurface& surface : surfacesFrom(field, level, in_cave ? 2 : -4)) {
@@ -88,7 +88,7 @@ TEST_CASE("chunks that meet have the same texture coordinates on their border") 
           }
           if (border) shared[place][chunk].push_back(wedge);
         }
-        // Once more with a field of which nothing is derived yet: the bytes must be the same.
+        // Unwraps the chunk again with a new field that has derived nothing yet: the bytes must be the same.
         const WorldField fresh(settingsOf(text, 512, 3), std::pmr::get_default_resource());
         const Result<Unwrapped> again =
             unwrapChunk(fresh, surface.mesh, surface.grid, nullptr, kTile, std::pmr::get_default_resource());
@@ -119,7 +119,7 @@ TEST_CASE("chunks that meet have the same texture coordinates on their border") 
       }
       REQUIRE(pairs > 100);
       REQUIRE(blends > 100);
-      // Coordinates may differ where two shapes, or two charts, meet at the border.
+      // Texture coordinates may differ where two shapes, or two charts, meet at the border of chunks.
       CHECK(static_cast<double>(same) > 0.9 * static_cast<double>(pairs));
     }
   }
@@ -151,7 +151,7 @@ TEST_CASE("a seam's vertices have the coordinates and blends of the coarser chun
     size_t met = 0, same = 0, blends = 0;
     const int32_t low = in_cave ? 2 : -4;
     for (int32_t i = 0; i < 512; ++i) {
-      // Only chunks whose high x face lies in a face of a chunk of level 1.
+      // Uses only chunks whose high x face lies in a face of a chunk of level 1.
       const Int3 at{low + (i & 7), low + (i >> 3 & 7), low + (i >> 6)};
       if ((at.x & 1) == 0) continue;
       ChunkRequest fine;

@@ -1,4 +1,4 @@
-// Tests the notes about parts that a mesh may miss.
+// Tests the notes about parts of a grammar that are so thin that a mesh may miss them.
 
 #include "chunk/thin_parts.h"
 #include "world/world_support.h"
@@ -7,9 +7,9 @@ using namespace sgm;
 
 namespace {
 
-constexpr int32_t kCell = 123;  // 12 cm, in units
+constexpr int32_t kCell = 123;  // 12 cm, in units of 1/1024 m
 
-/// The thin parts as text, "Pane 41 312; cut Bay 20 1": rule, thickness in units, number of uses.
+/// The thin parts as text, such as "Pane 41 312; cut Bay 20 1": rule, thickness in units, number of uses.
 std::string thinIn(const std::string& rules, int32_t cell = kCell, int level = 0,
                    const std::string& domain = "domain finite box(60m); start Main;") {
   const WorldField world(
@@ -48,7 +48,7 @@ TEST_CASE("every kind of shape has a thickness", "[thin]") {
   CHECK(thinIn(main + "meet { box(2m, 4cm, 2m); halfspace(below 1m); } }") == "Main 41 1");
   CHECK(thinIn(main + "displace 1cm*waves/1m { box(2m, 4cm, 2m); } }") == "Main 41 1");
   CHECK(thinIn(main + "morph(box(2m, 4cm, 2m), box(2m, 2cm, 2m), 0.5); }") == "Main 41 1");
-  // Parts as thick as a cell or thicker.
+  // Parts as thick as a cell or thicker are not reported.
   CHECK(thinIn(main + "box(2m, 13cm, 2m); morph(box(2m, 4cm, 2m), box(1m), 0.5); sum { blob(1m); blob(2cm); } }") ==
         "");
 }
@@ -59,7 +59,7 @@ TEST_CASE("a rule is told once, with its uses and its thinnest part", "[thin]") 
       "rule Pane(d) { box(1m, 1m, d); at(0m, 0m, 1m) box(1m, 1m, 2*d); }";
   CHECK(thinIn(panes) == "Pane 21 8");
   CHECK(thinIn(panes, 10) == "");
-  // The limit is the cell of the level that is meshed.
+  // The limit is the cell size of the level that is meshed.
   CHECK(thinIn(panes, 10, 4) == "Pane 21 8");
   CHECK(thinIn("rule Main { repeat 3 at(2m, 0m, 0m) { Bar; Pole; } }\nrule Bar { at(0m, 1m, 0m) box(5cm, 5cm, 2m); }\n"
                "rule Pole { cylinder(3cm, 1m); }") == "Bar 52 3; Pole 62 3");
@@ -69,8 +69,8 @@ TEST_CASE("in many cells of a layer parts are counted by their shapes", "[thin]"
   const std::string cells = "domain infinite; layer l cell 12m reach 6m { start Main; }";
   CHECK(thinIn("rule Main { at(5m, 5m, 5m) Pane; }\nrule Pane { box(1m, 1m, 4cm); }", kCell, 0, cells) ==
         "Pane 41 about 125");
-  // If a use has several thin shapes, or shapes of two statements look alike, every cell is derived to count exactly.
-  // The count includes 25 uses of neighbouring cells, of which only a part lies in the box.
+  // If a use of a rule has several thin shapes, or if two statements have shapes of the same size, every cell is
+  // derived for an exact count. This count includes 25 uses of neighbouring cells that lie only partly in the box.
   CHECK(thinIn("rule Main { at(5m, 5m, 5m) Pane; }\nrule Pane { box(1m, 1m, 4cm); at(2m, 0m, 0m) box(1m, 1m, 4cm); }",
                kCell, 0, cells) == "Pane 41 150");
   CHECK(thinIn("rule Main { at(5m, 5m, 5m) Pane; }\nrule Pane { repeat 3 at(0m, 0m, 1m) box(1m, 1m, 4cm); }", kCell, 0,
@@ -83,12 +83,12 @@ TEST_CASE("what a level leaves out is not missed", "[thin]") {
 }
 
 TEST_CASE("what lies on something or in it shows with that", "[thin]") {
-  // Not reported: a slab on a wall, a pipe in the ground, a slab within a block.
+  // These thin parts are not reported: a slab on a wall, a pipe in the ground, a slab within a block.
   CHECK(thinIn("rule Main { box(4m); at(0m, 2m, 0m) box(3m, 4cm, 3m); }") == "");
   CHECK(thinIn("rule Main { box(9m); at(0m, 4.5m, 0m) cylinder(2cm, 6cm); }") == "");
   CHECK(thinIn("rule Main { box(9m); box(2m, 4cm, 2m); }") == "");
-  // Reported: a part that extends from its support by more than half of its length, and thin parts that only touch
-  // other thin parts.
+  // These thin parts are reported: a part that extends from its support by more than half of its length, and parts that
+  // only touch other thin parts.
   CHECK(thinIn("rule Main { box(4m); at(4m, 0m, 0m) box(5m, 4cm, 1m); }") == "Main 41 1");
   CHECK(thinIn("rule Main { repeat 9 at(0m, 0m, 9cm) box(3m, 1m, 3cm); }") == "Main 31 1");
   // A part that is cut away completely is not reported.

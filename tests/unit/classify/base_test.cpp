@@ -1,4 +1,4 @@
-// Tests the database of reference histograms: written data are read again, and all damage is detected.
+// Tests the database of reference histograms: data are read as they were written, and all damage is detected.
 
 #include "tools/classify/base.h"
 
@@ -210,7 +210,7 @@ TEST_CASE("a log of a damaged base is not played into the next", "[masters]") {
   writeBytes(file, "no database any more");
   writeBytes(folder.path / "masters.db-wal", "some log");
   REQUIRE(openBase(file));
-  // SQLite may have deleted the log itself, since it was invalid.
+  // SQLite may have deleted the write-ahead log itself, because it was invalid.
   const auto aside = folder.path / "masters.db.damaged-1-wal";
   CHECK((!std::filesystem::exists(aside) || contentOf(aside) == "some log"));
   CHECK(same(*readBase(file).set, builtInMasters()));

@@ -68,14 +68,15 @@ TEST_CASE("single bars have one error however far apart, and the earth mover see
 
 TEST_CASE("of curvature the error is that of the shares' roots, of the paper's modes that of the shares",
           "[classify]") {
-  // Both differ from `flat` by a tenth; one of them has that tenth in one other bin, the other in two.
+  // Both histograms differ from `flat` by a tenth: `convex` has it in one other bin, `both` in two.
   const std::vector<double> flat{0, 1, 0}, convex{0, 0.9, 0.1}, both{0.05, 0.9, 0.05};
   CHECK(classError(HistogramMode::printed, flat, convex) == meanSquaredError(flat, convex));
   CHECK(classError(HistogramMode::corrected, flat, both) == meanSquaredError(flat, both));
   const double off = 1 - std::sqrt(0.9);
   CHECK(classError(HistogramMode::curvature, flat, convex) == Approx((off * off + 0.1) / 3));
   CHECK(classError(HistogramMode::curvature, flat, both) == Approx((off * off + 2 * 0.05) / 3));
-  // A rare share in another bin counts as much as a larger change of the flat share.
+  // In curvature mode, a small share of edges in another bin counts more than a larger change of the share of flat
+  // edges.
   const std::vector<double> flatter{0, 0.99, 0.01}, concave{0.01, 0.99, 0}, less{0, 0.95, 0.05};
   CHECK(classError(HistogramMode::curvature, flatter, concave) > classError(HistogramMode::curvature, flatter, less));
   CHECK(meanSquaredError(flatter, concave) < meanSquaredError(flatter, less));
@@ -189,7 +190,7 @@ TEST_CASE("as many bins as the mode has", "[classify]") {
 
 TEST_CASE("edges that touch a border do not count", "[classify]") {
   const auto jobs = std::move(*makeThreadPool(1));
-  // Four by four quadrangles: only the inner three by three points are not on the border.
+  // Four by four quadrangles: of the 5 by 5 points, only the inner 3 by 3 are not on the border.
   Mesh mesh;
   for (int i = 0; i <= 4; ++i)
     for (int j = 0; j <= 4; ++j) mesh.points.push_back({i * 1.0, j * 1.0, i == 0 ? 5.0 : 0.0});

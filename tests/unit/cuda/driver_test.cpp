@@ -58,7 +58,7 @@ TEST_CASE("chunks are meshed through the driver, and nothing is left behind", "[
   std::vector<ChunkJob> jobs = spheres(21, 20);
   checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.cuda, jobs));
   CHECK(machine.cuda->counters().on_cpu == 0);
-  // Every kernel is launched, except the one for chunks of which only sums are requested.
+  // A batch launches every kernel once, except the kernel for chunks of which only measures are requested (sums_only).
   constexpr auto kAll = static_cast<uint64_t>(cuda::Kernel::count);
   CHECK(machine.driver.state().launches == kAll - 1);
   jobs[3].sums_only = true;
@@ -98,7 +98,7 @@ TEST_CASE("a driver or device that cannot be used is refused with the reason", "
       CHECK(device.error().code == Code::out_of_memory);
       CHECK(device.error().message.find("out of memory") != std::string::npos);
     }
-    // Any error other than a lack of memory makes the device unusable, also an unknown one (46).
+    // Any error other than a lack of memory makes the device unusable, including the unknown code 46.
     state.fail_nth = 1, state.fail_result = 46;
     CHECK(refusal(driver).find("a failure") != std::string::npos);
   }
@@ -122,14 +122,14 @@ TEST_CASE("whatever call of the driver fails, the meshes are right and the next 
                                          "streamCreate",          "eventRecord",  "eventCreate"};
     state.fail_call = kCalls[random() % std::size(kCalls)];
     state.fail_nth = 1 + static_cast<unsigned>(random() % 9);
-    state.fail_result = random() % 2 == 0 ? cuda::kCuOutOfMemory : 700;  // an illegal address
+    state.fail_result = random() % 2 == 0 ? cuda::kCuOutOfMemory : 700;  // 700: an illegal address
     state.lasts = random() % 2 == 0;
     CAPTURE(kSeed, round, state.fail_call, state.fail_nth, state.fail_result, state.lasts);
     const BackendCounters before = machine.cuda->counters();
     checkSame(expected, random() % 2 == 0 ? polled(*machine.cuda, jobs) : meshesOf(*machine.cuda, jobs));
     struck += machine.cuda->counters().on_cpu - before.on_cpu;
     state.fail_nth = 0;
-    // A lost device is reopened; afterwards everything works as before.
+    // After a loss, the device is opened again, and everything works as before.
     checkSame(expected, meshesOf(*machine.cuda, jobs));
     const uint64_t after = machine.cuda->counters().on_cpu;
     checkSame(expected, meshesOf(*machine.cuda, jobs));
@@ -143,7 +143,7 @@ TEST_CASE("a context that cannot be made current takes no call", "[cuda]") {
   const std::vector<ChunkJob> jobs = spheres(23, 3);
   const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
   FakeDriver::State& state = machine.driver.state();
-  // Destroying such a context also releases everything in it.
+  // Destroying the context releases everything in it, so the test may leave objects.
   state.may_leave = true;
   for (unsigned nth = 1; nth < 40; ++nth) {
     CAPTURE(nth);

@@ -18,7 +18,7 @@ using cuda::FakeDriver;
 
 namespace {
 
-/// An engine with a context, and optionally a stream of its own.
+/// An engine that has a CUDA context, and optionally a stream of its own.
 class Engine {
  public:
   explicit Engine(bool with_stream) : table_(driver.table()) {
@@ -92,7 +92,7 @@ struct Stayed {
   size_t wanted = 0, there = 0;
 };
 
-/// Checks that all parts of a chunk stay or none, with the meshes' bytes.
+/// Checks that all parts of a chunk stay on the device or none, and compares their bytes with the meshes.
 Stayed checkStayed(const std::vector<ChunkMesh>& meshes) {
   Stayed stayed;
   for (const ChunkMesh& mesh : meshes) {
@@ -195,7 +195,7 @@ TEST_CASE("what the engine gives its stream after a batch is not waited for", "[
   std::vector<ChunkMesh> meshes;
   {
     const LentMachine machine(engine);
-    // The first batch, whose results are not copied back, with meshes that stay on the device.
+    // Submits the first batch, whose results are not copied back; its meshes stay on the device.
     auto batch = machine.cuda->submit(staying(44, 5));
     REQUIRE(batch);
     giveMore();

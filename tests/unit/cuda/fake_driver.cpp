@@ -17,7 +17,7 @@ FakeDriver::~FakeDriver() {
   }
   CHECK(fakeDepth() == 0);
   CHECK(left.calls_without == 0);
-  // Objects that the tests leave are released here, so that leak checkers do not report them.
+  // Releases objects that the tests left, so that leak checkers do not report them.
   endFake();
 }
 

@@ -14,7 +14,7 @@ inline constexpr std::array<std::byte, 16> kFakeImage{};
 class FakeDriver {
  public:
   FakeDriver() { beginFake(); }
-  /// CHECKs that nothing is left allocated.
+  /// CHECKs that no object of the driver is left.
   ~FakeDriver();
   FakeDriver(const FakeDriver&) = delete;
   FakeDriver& operator=(const FakeDriver&) = delete;

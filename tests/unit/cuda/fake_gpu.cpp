@@ -25,14 +25,15 @@ namespace {
 
 std::mutex fake_mutex;
 FakeState fake_state;
-thread_local int fake_depth = 0;  ///< number of contexts that are current
+thread_local int fake_depth = 0;  ///< number of contexts in this thread's stack of current contexts
 std::unique_ptr<Device> fake_host;
-std::unique_ptr<Stream> fake_runs;  ///< runs the kernels
+std::unique_ptr<Stream> fake_runs;  ///< stream that runs the kernels
 std::set<void*> fake_blocks;        ///< allocated blocks
 char fake_function[static_cast<size_t>(Kernel::count)];
 int fake_things[3];
 
-/// The work of a stream that has not been executed: it is executed only when the program waits, or queries twice.
+/// The work that a stream has not executed yet. It is executed only when the program waits, or queries for the second
+/// time.
 struct FakeStream {
   std::deque<std::function<void()>> queued;
   uint64_t given = 0;  ///< number of pieces of work submitted so far
@@ -51,7 +52,7 @@ struct FakeStream {
 };
 struct FakeEvent {
   FakeStream* stream = nullptr;
-  uint64_t after = 0;  ///< the event has occurred when this many pieces of its stream are executed
+  uint64_t after = 0;  ///< number of pieces of work of the stream after which the event has occurred
   bool asked = false;
 };
 /// Imported memory of another API, in the form in which Mesa's software device shares it: a file with a header that
@@ -87,7 +88,7 @@ FakeStream& of(CuStream stream) { return *reinterpret_cast<FakeStream*>(stream);
 FakeEvent& of(CuEvent event) { return *reinterpret_cast<FakeEvent*>(event); }
 void* hostOf(CuPointer memory) { return reinterpret_cast<void*>(static_cast<uintptr_t>(memory)); }
 
-/// The result that the call must return; 0 unless a failure was requested.
+/// The result of a driver call: 0, or the failure that the test has requested.
 int before(const char* call, bool needs_context = true) {
   FakeState& s = fake_state;
   if (needs_context && fake_depth == 0) ++s.calls_without;
@@ -109,7 +110,7 @@ Handle thing(int number) {
 DriverTable makeTable() {
   DriverTable t;
   t.init = [](unsigned) {
-    // When this is loaded as a library, no test has called beginFake().
+    // If this is loaded as a shared library, no test has called beginFake() before.
     if (!fake_host) beginFake();
     return before("init", false);
   };
@@ -206,7 +207,7 @@ DriverTable makeTable() {
     return kCuSuccess;
   };
   t.streamDestroy = [](CuStream stream) {
-    // A GPU finishes the work that it was given, even if the stream is destroyed.
+    // A GPU finishes submitted work, even if the stream is destroyed.
     of(stream).finish(of(stream).given);
     fake_streams.erase(&of(stream));
     delete &of(stream);
@@ -245,7 +246,7 @@ DriverTable makeTable() {
     return kCuSuccess;
   };
   t.eventSynchronize = [](CuEvent event) {
-    // If the call fails, it has not waited.
+    // If the driver's call fails, it has not waited for the event.
     if (const int result = before("eventSynchronize")) return result;
     if (of(event).stream != nullptr) of(event).stream->finish(of(event).after);
     return kCuSuccess;
@@ -275,8 +276,8 @@ DriverTable makeTable() {
       fake_blocks.erase(hostOf(memory));
       std::free(hostOf(memory));
     });
-    // If nothing is queued before it, the memory may be freed at once, so that a later use by another stream is a
-    // detectable error.
+    // If no other work is queued, the memory is freed at once, so that a later use by another stream is a detectable
+    // error.
     if (of(stream).queued.size() == 1) of(stream).finish(of(stream).given);
     --fake_state.device_blocks;
     return before("memFreeAsync");

@@ -1,6 +1,6 @@
 #pragma once
-// A simulated CUDA driver: the memory of its GPU is the host's, its kernels run on the CPU (host_device.h), and it
-// counts the objects that it has created. Only one may exist at a time, since a driver's functions have no object; any
+// A simulated CUDA driver: its GPU's memory is host memory, its kernels run on the CPU (host_device.h), and it counts
+// the objects that it has created. Only one may exist at a time, because a driver's functions have no object; any
 // thread may call them.
 
 #include <array>
@@ -21,7 +21,7 @@ struct FakeState {
   int calls_without = 0;  ///< number of calls that need a current context but had none
   uint64_t launches = 0;
   CuStream launched_on = nullptr;  ///< stream of the last launch
-  // The fail_nth-th call of fail_call from now on returns fail_result; if `lasts`, all later ones do too.
+  // From now on, the fail_nth-th call of fail_call returns fail_result; if `lasts`, all later calls of it do so, too.
   std::string fail_call;
   unsigned fail_nth = 0;
   int fail_result = 0;
@@ -31,11 +31,11 @@ struct FakeState {
 };
 
 FakeState& fakeState();
-int fakeDepth();  ///< number of contexts that are current on this thread
+int fakeDepth();  ///< number of contexts in this thread's stack of current contexts
 DriverTable fakeTable();
-/// Creates the simulated GPU, which exists until endFake(). It has the same id each time.
+/// Creates the simulated GPU, which exists until endFake(). Its id is always the same.
 void beginFake();
-/// Destroys the simulated GPU, and frees everything that was left.
+/// Destroys the simulated GPU, and frees all objects that were left.
 void endFake();
 
 }  // namespace sgm::cuda

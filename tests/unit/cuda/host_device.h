@@ -16,10 +16,10 @@ struct HostDeviceOptions {
   /// Called before every call that can fail, with the call's name ("allocate", "launch"...). If it returns an error,
   /// the call fails with that error.
   std::function<Result<void>(const char* call)> before = nullptr;
-  bool borrowed = false;  ///< behaves like a device that an engine provides
+  bool borrowed = false;  ///< whether the device behaves like one that an engine provides
 };
 
-/// New memory contains byte patterns that no kernel can mistake for valid data.
+/// Makes a device. New memory contains byte patterns that no kernel can mistake for valid data.
 std::unique_ptr<Device> makeHostDevice(HostDeviceOptions options = {});
 
 }  // namespace sgm::cuda

@@ -21,8 +21,8 @@
 
 using namespace sgm;
 
-/// Suppresses reports of leaks in the validation layer, which keeps objects in reference cycles. That our objects are
-/// destroyed is checked by the layer at the device's end.
+/// Suppresses reports of leaks in the validation layer, which keeps objects in reference cycles. The layer itself
+/// checks that our objects are destroyed, when the device is destroyed.
 extern "C" const char* __lsan_default_suppressions(void);
 extern "C" const char* __lsan_default_suppressions(void) { return "leak:libVkLayer_khronos_validation.so"; }
 
@@ -35,7 +35,7 @@ T take(Result<T> result) {
   return std::move(*result);
 }
 
-/// The GPU that both APIs use, and some parts in the memory of a batch.
+/// The GPU that both APIs use: an engine's Vulkan device, the simulated CUDA driver, and the store that they share.
 class OneGpu {
  public:
   OneGpu() : engine_(vulkan::Validation::synchronization, true) {
@@ -59,7 +59,7 @@ class OneGpu {
   std::shared_ptr<MeshStore> store;
 };
 
-/// Chunks with a body of random bytes each, as a batch has left them in the device's memory.
+/// The results of a batch in device memory: chunks with a body of random bytes each.
 class BatchOf {
  public:
   BatchOf(cuda::Stream& stream, size_t chunks, std::mt19937& random) : sources(chunks), bytes_(chunks) {
@@ -72,14 +72,14 @@ class BatchOf {
       for (std::byte& byte : bytes_[c]) byte = static_cast<std::byte>(random());
       memory_.emplace_back();
       REQUIRE(memory_.back().grow(stream, cuda::MemoryKind::device, of_vertices + of_indices));
-      // The simulated GPU's memory is in this process.
+      // The memory of the simulated GPU belongs to this process.
       std::memcpy(memory_.back().data(), bytes_[c].data(), bytes_[c].size());
       body.vertices = reinterpret_cast<const Vertex*>(memory_.back().data());
       body.indices = reinterpret_cast<const uint32_t*>(memory_.back().data() + of_vertices);
     }
   }
 
-  /// Whether the memory at a chunk's place contains the expected bytes.
+  /// Whether the memory at the place contains the bytes of the place's chunk.
   bool arrived(const PartPlace& place) const {
     const cuda::PartSource& body = sources[place.chunk][0];
     const size_t of_vertices = body.vertex_count * sizeof(Vertex);
@@ -148,7 +148,7 @@ TEST_CASE("parts are where they were placed, and there once they are published",
     CHECK(gpu.store->bytes() > 0);
     placement.reset();
     CHECK(bytesAtRest(*gpu.store) == 0);
-    // The block stays allocated, and its import stays valid.
+    // The store's block stays allocated, and the import of its memory stays valid.
     CHECK(gpu.driver.state().imports == 1);
   }
   gpu.store.reset();
@@ -282,7 +282,7 @@ TEST_CASE("two devices may write to one block, each to what was placed for it", 
     const auto before = take(cuda::PlacedMeshes::create(*old, gpu.store));
     const auto after = take(cuda::PlacedMeshes::create(*anew, gpu.store));
     const BatchOf one(*first, 3, random), other(*second, 3, random);
-    // The second transfer begins before the first has ended.
+    // The second device's transfer begins before the first device's has ended.
     std::unique_ptr<Placement> a = take(before->keep(*first, one.sources));
     std::unique_ptr<Placement> b = take(after->keep(*second, other.sources));
     std::unique_ptr<Placement> c = take(before->keep(*first, one.sources));
@@ -317,7 +317,7 @@ TEST_CASE("where a block cannot be imported its chunks have no room; at the begi
   CHECK(!cuda::PlacedMeshes::create(*device, gpu.store));
   gpu.faults.disarm();
   const auto placed = take(cuda::PlacedMeshes::create(*device, gpu.store));
-  // A second block is allocated when the first is full.
+  // When the first block is full, the store allocates a second block.
   std::vector<cuda::PartSources> large(2);
   const BatchOf batch(*stream, 2, random);
   large[0] = batch.sources[0];

@@ -1,4 +1,4 @@
-// Tests driver_api.h against the toolkit's own header and library, and the image of the kernels.
+// Tests driver_api.h against the CUDA toolkit's own header and library; also tests the embedded image of the kernels.
 
 #include <cuda.h>
 #include <dlfcn.h>

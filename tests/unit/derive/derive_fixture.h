@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// A lower layer with rock everywhere above a height and air below it.
+/// Lower layers that are rock above a height, and air below it.
 class Ceiling : public LowerLayers {
  public:
   explicit Ceiling(int32_t height) : height_(height) {}
@@ -37,7 +37,7 @@ inline GrammarChunk derived(const Program& program, Int3 cell = {}, uint64_t see
   return *std::move(chunk);
 }
 
-/// The derived cell of a grammar with one infinite layer of 64 m cells. `rules` must define the rule Main.
+/// Derives a cell of a grammar with one infinite layer of 64 m cells. `rules` must define the rule Main.
 inline GrammarChunk derivedRules(std::string_view rules, Int3 cell = {}, uint64_t seed = 7) {
   const std::string text =
       "sgm 1; units m; domain infinite; layer main cell 64m reach 64m { start Main; }\n" + std::string(rules);

@@ -1,6 +1,6 @@
 #pragma once
-// Evaluates the shapes of shape.h in plain double precision, to judge bounds. Noise may be any function with values in
-// -1..1.
+// Evaluates the shapes of shape.h in double precision, as a reference for bounds. Noise may be any function with values
+// in -1..1.
 
 #include <algorithm>
 #include <cmath>
@@ -144,7 +144,7 @@ inline double fieldAt(const GrammarChunk& chunk, uint32_t index, Int3 p) {
       return std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z) - size(0);
     case ShapeKind::box:
       return boxDistance(std::fabs(q.x) - size(0), std::fabs(q.y) - size(1), std::fabs(q.z) - size(2));
-    case ShapeKind::voxels:  // at least the distance to its box
+    case ShapeKind::voxels:  // a lower bound: the distance to the block's box
       return boxDistance(std::fabs(q.x) - size(0), std::fabs(q.y) - size(1), std::fabs(q.z) - size(2));
     case ShapeKind::cylinder:
       return boxDistance(ring - size(0), std::fabs(q.y) - size(1), -1e300);

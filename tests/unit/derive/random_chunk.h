@@ -1,5 +1,5 @@
 #pragma once
-// Random trees of shapes of every kind, for properties that must hold for all of them.
+// Random trees of shapes of every kind, for tests of properties that all trees must have.
 
 #include <algorithm>
 #include <cmath>

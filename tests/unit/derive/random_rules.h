@@ -12,9 +12,9 @@ class RandomRules {
  public:
   explicit RandomRules(uint64_t seed) : key_{seed} {}
 
-  /// A random grammar. finite: a finite domain without a box, for which the proof of reach computes one; otherwise an
-  /// infinite layer with cells of 256 m. Nearly all of these grammars reach less than 150 m; with a larger reach,
-  /// hundreds of cells would be derived for every box.
+  /// A random grammar. finite: with a finite domain whose box is not stated, so that the compiler computes it from the
+  /// extent of the shapes; otherwise with an infinite layer of cells of 256 m. In nearly all of these grammars, shapes
+  /// extend less than 150 m; if they extended farther, hundreds of cells would be derived for every box.
   std::string program(bool finite) {
     out_ =
         "sgm 1;\nparam size_ = 2m in 1m..3m;\nparam share = 0.5 in 0..1;\nparam free = 3;\nparam count = 2 in 0..3;\n";
@@ -34,7 +34,7 @@ class RandomRules {
     return out_;
   }
 
-  /// Override statements for the grammar of the last call of program(), by path and by tag, to be appended to its text.
+  /// Override statements, by path and by tag, to be appended to the grammar that the last call of program() returned.
   std::string edits() {
     std::string out = "override tag \"edited\" " + edit("") + "\n";
     const std::string path = first_ == "R0" ? "R0" : "Fine/R0";
@@ -49,7 +49,7 @@ class RandomRules {
 
  private:
   std::string edit(const std::string& tag) {
-    // An override by tag has no parameters of the rule, so it declares r itself.
+    // An override by tag cannot use the parameters of the rule, so the override declares r itself.
     const std::string let = tag.empty() ? "{ let r = 1.5m; " : "{ " + tag;
     switch (draw(4)) {
       case 0:
@@ -79,7 +79,7 @@ class RandomRules {
     if (kind < 3) out_ += head + (kind == 0 ? "else " : kind == 1 ? "weight count " : "") + block(0) + "\n";
   }
 
-  /// A block that also calls the next rule, so that all rules are reached.
+  /// A block of statements that also calls the next rule, so that every rule is used.
   std::string whole() {
     std::string out = block(0);
     out.pop_back();
@@ -87,7 +87,7 @@ class RandomRules {
     return out + "R" + std::to_string(level_ + 1) + "(" + length() + "); }";
   }
 
-  /// Uses of a rule that uses a value twice; intervals alone do not give a finite bound for it.
+  /// Calls of a rule that uses a value twice; interval arithmetic alone gives no finite bound for it.
   std::string correlated() {
     return pick({"", "Swollen(rand(1m, 4m)); ", "Swollen(size_); ", "Share(rand(0.5m, 5m)); ", "Share(2*size_); "});
   }
@@ -247,7 +247,7 @@ class RandomRules {
       case 24:
         return sized() + "treemap" + rooms(depth);
       case 25:
-        // The sizes give so few tiles that the contents of each may be large.
+        // The sizes give so few tiles that each tile may have many contents.
         return pick({"size(2m, 1m, 3m) ", "size(min(r, 3m), 2m, rand(0.5m, 2m)) "}) + "wfc " +
                pick({"1m", "(2m, 1m, 1.5m)", "rand(1m, 3m)", "(r, 2m, max(size_, 1m))"}) + tiles(depth);
       case 26:

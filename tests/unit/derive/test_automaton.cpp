@@ -52,7 +52,7 @@ void forAll(const VoxelBox& box, Visit visit) {
       for (at.x = 0; at.x < box.count.x; ++at.x) visit(at);
 }
 
-/// The automaton's result by the plain algorithm: round by round and neighbour by neighbour, in a box much larger than
+/// Computes the automaton by the plain algorithm: round by round and neighbour by neighbour, in a box much larger than
 /// necessary, outside of which nothing is solid.
 std::vector<uint8_t> straightforward(const Automaton& automaton, const VoxelBox& box) {
   VoxelBox large = box;
@@ -94,8 +94,8 @@ TEST_CASE("an automaton in a box is part of the one over the whole world") {
   CAPTURE(seed);
   std::mt19937 random(seed);
   size_t solid = 0, all = 0;
-  // At least 150 boxes in every build, since the shares checked below need many: of a dozen boxes, a few large ones,
-  // all rock or all air, would have most voxels.
+  // Every build tests at least 150 boxes, because the shares are checked below: of only a dozen boxes, a few large ones
+  // that are all rock or all air would have most of the voxels.
   const unsigned boxes = std::max(rounds(150), 150u);
   for (unsigned round = 0; round < boxes; ++round) {
     const Automaton automaton = anyAutomaton(random);

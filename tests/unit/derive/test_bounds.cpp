@@ -10,7 +10,7 @@ using namespace sgm;
 
 namespace {
 
-/// Returns how many random points lie in the level set, and checks that all of those lie in the box.
+/// Returns how many random points have a field value of at most `a`, and checks that all of these lie in the box.
 int checkLevel(RandomChunk& random, uint32_t root, double a, const IntBox& box) {
   int inside = 0;
   for (int i = 0; i < 300; ++i) {
@@ -48,7 +48,7 @@ TEST_CASE("bounds hold every point of the level set, for every kind of shape") {
     }
   }
   CHECK(inside > static_cast<int>(3 * rounds(3000)));
-  CHECK(seen.size() == 21);  // all kinds but the half-space
+  CHECK(seen.size() == 21);  // all shape kinds but the half-space
 }
 
 TEST_CASE("bounds of leaves are tight") {
@@ -59,8 +59,8 @@ TEST_CASE("bounds of leaves are tight") {
     const Shape& s = random.chunk.shapes[root];
     if (s.kind == ShapeKind::morph_power) continue;
     const IntBox box = levelBounds(random.chunk, root, 0);
-    // A rotated box touches its bounds only with corners, a ball only with points of its faces, so that random points
-    // rarely do: compare the extent instead.
+    // A rotated box touches its bounds only at corners, and a ball only at six points, so random points rarely do:
+    // compares extents instead.
     for (int axis = 0; axis < 3; ++axis) {
       const double extent = static_cast<double>(box.hi[axis]) - box.lo[axis];
       double most = 0;
@@ -97,7 +97,7 @@ TEST_CASE("exact boxes: a sphere, an upright box, a half-space in a meet") {
   CHECK(isBounded(met));
   CHECK(met.hi.y <= 2);
 
-  chunk.shapes[1].detail = 100;  // at levels without the half-space, the whole meet is left out
+  chunk.shapes[1].detail = 100;  // levels that omit the half-space omit the whole intersection (`meet`)
   CHECK(levelBounds(chunk, 2, 0) == met);
 }
 

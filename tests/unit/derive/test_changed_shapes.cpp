@@ -1,4 +1,5 @@
-// No member of what a cell derives changes unnoticed: neither in the hash of the chunk nor among the changed shapes.
+// Tests that no change of a member of a derived cell goes unnoticed: the chunk's hash changes, and the change is among
+// the changed shapes.
 
 #include "catch.h"
 #include "derive/changed_shapes.h"
@@ -8,7 +9,8 @@ using namespace sgm;
 
 namespace {
 
-/// A warped union of a prism and of voxels, by expressions of every kind of reference, and an anchor.
+/// A cell with all kinds of members: a warped union of a prism and of voxels, expressions with every kind of reference,
+/// and an anchor.
 GrammarChunk everything() {
   GrammarChunk chunk;
   chunk.points = {{0, 0, 0}, {9, 0, 0}, {0, 0, 9}, {5, 5, 5}};

@@ -13,7 +13,7 @@ namespace {
 
 const Shape& rootOf(const GrammarChunk& chunk, size_t group) { return chunk.shapes[chunk.groups.at(group).root]; }
 
-/// The end points of a passage's capsules, in order from one end to the other.
+/// The end points of the capsules of all passages, in order along each passage.
 std::vector<Int3> corners(const GrammarChunk& chunk) {
   std::vector<Int3> ends;
   for (const Shape& s : chunk.shapes) {

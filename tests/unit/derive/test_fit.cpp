@@ -36,7 +36,7 @@ GrammarChunk fitted(const std::string& statement) {
 
 std::string noteOf(const std::string& statement) {
   const GrammarChunk chunk = fitted("sphere(1m); " + statement);
-  REQUIRE(chunk.groups.size() == 1);  // the rest of the cell is derived
+  REQUIRE(chunk.groups.size() == 1);  // only the faulty statement is left out
   REQUIRE(chunk.notes.size() == 1);
   CHECK(chunk.notes[0].path == "main(0, 0, 0)/Main");
   CHECK(chunk.notes[0].line == 2);
@@ -64,7 +64,7 @@ TEST_CASE("the planes of a fitted asset lie where they are to the tenth of a uni
   const auto program =
       withAssets("rule Main { at(20.3m, 20.7m, 20.1m) rot((1, 2, 3), 33deg) size(9m, 7m, 11m) fit house; }");
   const GrammarChunk chunk = derived(*program);
-  // Opposite planes are as far apart as the scope is long.
+  // Opposite planes of the asset are as far apart as the scope is long on that axis.
   std::vector<double> distances;
   for (size_t i = 0; i < chunk.shapes.size(); ++i)
     for (size_t k = i + 1; k < chunk.shapes.size(); ++k) {
@@ -79,7 +79,7 @@ TEST_CASE("the planes of a fitted asset lie where they are to the tenth of a uni
       if (facing < -0.9999) distances.push_back(std::fabs(apart) / 1024);
     }
   std::sort(distances.begin(), distances.end());
-  REQUIRE(distances.size() == 2);  // back and front, left and right; the floor and the roof are not parallel
+  REQUIRE(distances.size() == 2);  // two pairs of walls; the floor is not parallel to the roof
   CHECK(distances[0] == Approx(9).margin(0.0002));
   CHECK(distances[1] == Approx(11).margin(0.0002));
 }
@@ -127,7 +127,7 @@ TEST_CASE("an asset that does not fit is left out with a note, and the rest appe
 }
 
 TEST_CASE("an asset that would run through itself is left out with a note", "[derive][fit]") {
-  // A gable roof that, lowered, cuts into the window, which keeps its height.
+  // A gable roof that cuts into the window if it is lowered, because the window keeps its height.
   asset::MeshMaker maker;
   maker.prism({{0, 0}, {6, 0}, {6, 4}, {3, 7}, {0, 4}}, 0, 2);
   asset::MeshMaker window;

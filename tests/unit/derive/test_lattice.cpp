@@ -10,7 +10,7 @@ using namespace sgm;
 
 namespace {
 
-/// Number of connected components of a block of grammar cells, with the links inside the block.
+/// Number of connected components into which the links inside a block of grammar cells join the cells.
 int components(const Lattice& lattice, Int3 corner, Int3 extent, int tree, double extra) {
   const auto index = [&](Int3 c) {
     return static_cast<size_t>(((c.z - corner.z) * extent.y + (c.y - corner.y)) * extent.x + (c.x - corner.x));
@@ -83,7 +83,8 @@ TEST_CASE("the share of extra links is the one asked for") {
       if (!lattice.linked(face, 3, 0.0) && lattice.linked(face, 3, 0.25)) ++open;
     }
   }
-  // About a third of the faces is always open (with a share of 0, too); of the others, a quarter opens.
+  // Without extra links (a share of 0), about a third of the faces between cells is linked. Of the other faces, a
+  // quarter gets an extra link.
   CHECK(open > all * 0.25 * 0.60);
   CHECK(open < all * 0.25 * 0.72);
 }

@@ -1,4 +1,4 @@
-// Tests many overrides together, and several of the same address.
+// Tests many overrides together, and several overrides with the same address.
 
 #include <set>
 
@@ -10,7 +10,7 @@ namespace {
 
 const std::string kLayer = "sgm 1; domain infinite;\nlayer net cell 64m reach 128m { start Main; }\n";
 
-/// Number of boxes and number of spheres among the roots of the cell's groups.
+/// Numbers of boxes and of spheres among the root shapes of the cell's groups.
 std::array<size_t, 2> boxesAndBalls(const GrammarChunk& chunk) {
   std::array<size_t, 2> out{};
   for (const Group& g : chunk.groups) {
@@ -35,8 +35,7 @@ TEST_CASE("overrides of one address have draws of their own", "[override]") {
       for (const Shape& shape : chunk.shapes) {
         if (shape.kind == ShapeKind::sphere) radii.insert(shape.size[0]);
       }
-      // Seven spheres: four copies of the original, two of the lower override's own sphere, and one of the upper
-      // override's.
+      // Seven spheres: four copies of the original, two spheres of the lower override, and one of the upper override.
       CHECK(radii.size() == 7);
     }
   }
@@ -52,7 +51,7 @@ TEST_CASE("what a use costs does not depend on how many overrides there are", "[
     edits += "override \"Main/Room[" + std::to_string(i) + "]" + door + "\" { box(1m); }\n";
   }
   const auto program = compiled(rules + edits);
-  // A room has its sphere and the box that replaces its door, or a box that replaces the whole room.
+  // Each room has its sphere and a box in place of its door, or a box in place of the whole room.
   CHECK(boxesAndBalls(derived(*program, {})) == std::array<size_t, 2>{2000, 1000});
 
   DeriveLimits limits;
@@ -65,7 +64,7 @@ TEST_CASE("what a use costs does not depend on how many overrides there are", "[
 TEST_CASE("of paths that hold for one use, the last is derived, every one by its own way", "[override]") {
   const std::string rules =
       kLayer + "rule Main { A; A; B; }\nrule A { C; C; }\nrule B { C; }\nrule C { torus(2m, 1m); }\n";
-  // Each path, and which of the five uses of C, in the order of derivation, it selects.
+  // Each path, and which of the five uses of C it selects, counted in the order of derivation.
   const std::vector<std::pair<std::string, std::set<size_t>>> paths = {
       {"Main/A/C", {0, 1, 2, 3}}, {"Main/A[1]/C", {2, 3}}, {"Main/A/C[1]", {1, 3}},
       {"Main/A[1]/C[1]", {3}},    {"Main/B/C", {4}},       {"Main/B/C[0]", {4}},

@@ -94,7 +94,8 @@ TEST_CASE("what is left out of one cell changes that cell alone", "[override]") 
       INFO("seed " << seed << "\n" << with);
       const CompileResult after = compileGrammar(with, "test.sgm");
       INFO(renderDiagnostics(after));
-      // A displaced sum needs a largest shape for the proof of its bounds, and the override may have removed it.
+      // To bound a displaced sum, the compiler needs its largest shape. If the override has removed that shape, the
+      // text does not compile.
       const bool unproven = text.find("fractal(2m) sum") != std::string::npos && !after.program;
       if (unproven) continue;
       REQUIRE(after.program);
@@ -117,7 +118,7 @@ TEST_CASE("only the shapes of what is named change", "[override]") {
   const GrammarChunk a = derived(*before), b = derived(*after);
   REQUIRE(a.groups.size() == 4);
   REQUIRE(b.groups.size() == 5);
-  // The original ball, 5 m higher and of the same size, and a box with the use's own parameter as its size.
+  // The override derives the original ball 5 m higher, and a box whose size is a parameter of the use.
   CHECK(b.shapes[b.groups[2].root].size == a.shapes[a.groups[2].root].size);
   CHECK(b.shapes[b.groups[2].root].frame.origin ==
         saturatingAdd(a.shapes[a.groups[2].root].frame.origin, {0, 5 * kUnitsPerMetre, 0}));
@@ -265,7 +266,7 @@ TEST_CASE("an override by a room's name takes the place of what stands in the ro
   auto more = plain;
   ++more.first[ShapeKind::capsule];
   CHECK(shapesOf("override tag \"den\" { inner; capsule((0m, 0m, 0m), (1m, 0m, 0m), 1m); }") == more);
-  // The room remains, and the block's capsule is cut from it, as the sphere of the replaced block was.
+  // The room remains, but the override's capsule is cut from it instead of the original block's sphere.
   auto other = plain;
   --other.first[ShapeKind::sphere];
   --other.second;
@@ -329,7 +330,7 @@ TEST_CASE("overrides do not hold in their own blocks, so that none is without en
   CHECK(kinds(*compiled(withEdit(text, "Main/Tree", "{ Tree(n - 2); }"))) == Kinds{s, b});
   CHECK(kinds(*compiled(withEdit(text, "Main/Tree/Tree", "{ Tree(5); }"))) == Kinds{s, s, s, s, s, s, b});
   CHECK(kinds(*compiled(text + "override tag \"t\" { torus(3m, 1m); Tree(1); }\n")) == Kinds{t, s, b});
-  // The original derives further trees, to which the override applies as well.
+  // The original (`inner`) derives further trees, to which the override applies as well.
   CHECK(kinds(*compiled(text + "override tag \"t\" { torus(3m, 1m); inner; }\n")) == Kinds{t, s, t, s, t, s, b});
   // Two overrides whose blocks call each other's rules.
   const std::string two =
@@ -409,7 +410,7 @@ TEST_CASE("a cell that is named and lacks the path says so, and no other", "[ove
           (balls ? "this override finds nothing: there are only 2 `Ball` here in " + cell + "/Main" : none));
     CHECK(message(cell + "/Main/Ball[1]/Fruit[1]", x) ==
           (balls ? "this override finds nothing: there is only one `Fruit` here in " + cell + "/Main/Ball[1]" : none));
-    // Each of the balls has one Fruit, none has two.
+    // Each ball has one Fruit, and no ball has two.
     CHECK(message(cell + "/Main/Ball/Fruit[1]", x) ==
           (balls ? "this override finds nothing: there is only one `Fruit` here in " + cell + "/Main/Ball[0]" : none));
     CHECK(message(cell + "/Main/Ball[2]", x + 1).empty());

@@ -29,7 +29,7 @@ std::vector<Shape> shapesOf(const GrammarChunk& chunk, ShapeKind kind) {
   return out;
 }
 
-/// World coordinates of the corners of an upright prism, metres, in order from x towards z.
+/// World coordinates, in metres, of the corners of an upright prism, in order from x towards z.
 std::vector<PlanCorner> outlineOf(const GrammarChunk& chunk, const Shape& prism) {
   std::vector<PlanCorner> out;
   for (uint32_t i = prism.point_count; i-- > 0;) {
@@ -99,7 +99,7 @@ TEST_CASE("merged plans hang together, and every piece is a draw of its own", "[
     REQUIRE(pieces.size() == static_cast<size_t>(count));
     REQUIRE(chunk.notes.empty());
     const std::vector<PlanCorner> first = outlineOf(chunk, pieces[0]);
-    // All corners are compared: single corners of two pieces may be rounded to the same unit.
+    // Compares whole outlines, because single corners of two pieces may be rounded to the same unit.
     std::set<std::vector<std::pair<double, double>>> outlines;
     for (const Shape& piece : pieces) {
       const std::vector<PlanCorner> corners = outlineOf(chunk, piece);
@@ -129,7 +129,7 @@ TEST_CASE("an extrusion is as high as it says, from y = 0 up", "[derive][profile
     CHECK(std::fabs(middle - half) <= 0.51);
     // The scope of the block is the bounding box of the piece.
     REQUIRE(chunk.anchors.size() == 1);
-    // The middle and half of the height are rounded separately, and `half` is a float.
+    // The middle and half of the height are rounded separately, and `half` was a float.
     CHECK(std::fabs(chunk.anchors[0].frame.origin.y - 2 * half) <= 1.01);
   }
 }
@@ -258,7 +258,8 @@ TEST_CASE("roofs slope at their pitch, hips on every side and gables along the r
   CAPTURE(seed);
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(60); ++round) {
-    // The values are rounded as in the text: otherwise digits that the text lacks could decide which edge is longer.
+    // The edge lengths are rounded as in the grammar's text: otherwise, digits that the text lacks could decide which
+    // edge is longer.
     const auto edge = [&] { return std::stod(decimal(2 + 12 * random01(random))); };
     const double pitch = 5 + 75 * random01(random), x = edge(), z = edge();
     const int corners = 3 + static_cast<int>(random() % 9);

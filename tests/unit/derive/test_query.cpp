@@ -1,4 +1,5 @@
-// Tests queries of lower layers during derivation: the proof about a ball, and which ball is queried.
+// Tests queries of lower layers during derivation: the proof that a ball is entirely solid or entirely open, and the
+// layer, ball and content that a grammar's query asks for.
 
 #include <cmath>
 #include <random>
@@ -21,7 +22,7 @@ Int3 around(std::mt19937& random, Int3 p, int32_t most) {
   return saturatingAdd(p, {by(random), by(random), by(random)});
 }
 
-/// A field with rock everywhere except in a sphere, or only in it; its bounds have a slack, as those of fields do.
+/// A field of rock everywhere except in a sphere, or only in it; like real fields, it has bounds with a slack.
 class OneSphere {
  public:
   OneSphere(Int3 centre, double radius, bool hollow, double slack)
@@ -49,7 +50,7 @@ class OneSphere {
   double slack_;
 };
 
-/// Records the queries, and answers each with yes.
+/// Lower layers that record the queries, and answer each with yes.
 class Asked final : public LowerLayers {
  public:
   explicit Asked(uint32_t pieces = 1) : pieces_(pieces) {}
@@ -117,8 +118,8 @@ TEST_CASE("a ball proven to hold one thing holds nothing else, and away from the
       }
       CHECK(wrong == 0);
     }
-    // The smallest pieces are a 32nd of the radius wide, so those of the ball may extend beyond it by that much, and
-    // the bounds need as much again.
+    // The smallest pieces of the proof have an edge of 1/32 of the ball's radius, so their diagonal is less than 0.06
+    // radii. They may extend beyond the ball by a diagonal, and their bounds are off by `slack` diagonals.
     const double gap = std::abs(distance(ball.centre, middle) - radius) - ball.radius;
     if (gap > (1 + slack) * 0.06 * ball.radius + 2) {
       ++decided;
@@ -149,7 +150,7 @@ TEST_CASE("one position of something else is never missed") {
 }
 
 TEST_CASE("a proof costs no more than it may, and what costs more is not proven") {
-  // Content is known only of single positions, not of larger boxes.
+  // The content is known only for single positions, and not for larger boxes.
   const auto single = [](const IntBox& box) { return box.lo == box.hi ? BoxContent::open : BoxContent::unknown; };
   const BallProof large = proveBall({{}, 5000}, BoxContent::open, single);
   CHECK_FALSE(large.holds);
@@ -228,7 +229,7 @@ TEST_CASE("in loops and point sets every place asks for itself") {
 }
 
 TEST_CASE("answers are conditions like others") {
-  // Below 32 m, everything is open.
+  // The lower layer is open everywhere below 32 m.
   const Ceiling rock(32 * 1024);
   const auto holds = [&](const std::string& height, const std::string& condition) {
     return anchorsOf("rule D { at(1m, " + height + ", 1m) Ask; } rule Ask when " + condition + " { anchor spawn; }",

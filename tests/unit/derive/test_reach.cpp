@@ -38,11 +38,11 @@ int32_t coarsestCell(const GrammarChunk& chunk, uint32_t index) {
   return s.detail > 0 ? std::min(most, s.detail) : most;
 }
 
-/// Checks that the shapes of a cell stay within the proven bound, and that no shape is left out because it exceeds its
+/// Checks that all shapes of a cell lie within the proven bound, and that no shape was left out for exceeding its
 /// reach.
 int checkCell(const Program& program, const ParameterValues& values, uint64_t seed, Int3 cell) {
   const Result<GrammarChunk> chunk = deriveCell(program, values, seed, 0, cell, Ceiling(0));
-  if (!chunk) return 0;  // the cell exceeds the limits of a cell
+  if (!chunk) return 0;  // the cell is too large for the limits of derivation
   for (const DeriveNote& note : chunk->notes) {
     INFO(note.message << " in " << note.path << " at " << note.line << ":" << note.column);
     CHECK(note.message.find("may pass") == std::string::npos);
@@ -90,7 +90,7 @@ TEST_CASE("what is proven holds all that is derived", "[costly]") {
       INFO("seed " << seed << ", world " << world << "\n" << text);
       const bool whole = isWhole(program.layers[0]);
       Int3 cell = whole ? Int3{} : Int3{static_cast<int32_t>(world) - 2, 0, 1};
-      // Near the ends of the world, where floats have the least precision.
+      // This cell is near the ends of the world, where floats have the least precision.
       if (!whole && world == 4) cell = {8180, -8180, 8180};
       groups += checkCell(program, randomValues(program, seed * 8 + world), world, cell);
     }
@@ -141,7 +141,7 @@ TEST_CASE("what passes its reach, its domain or every bound is left out whole", 
   const auto large = compiled(
       "sgm 1; domain infinite; layer main cell 1024m reach 2100m { start Main; }\n"
       "rule Main { at(1900m, 0m, 0m) sphere(200m); at(-1900m, 0m, 0m) sphere(200m); }");
-  // Cells lie in -2048 to 2046.
+  // The world's cells have coordinates from -2048 to 2046; these two cells are not outermost.
   for (const Int3 cell : {Int3{2045, 0, 0}, Int3{-2045, 0, 0}}) CHECK(derived(*large, cell).notes.empty());
   for (const Int3 cell : {Int3{2046, 0, 0}, Int3{-2048, 0, 0}}) {
     const GrammarChunk outermost = derived(*large, cell);
@@ -151,7 +151,8 @@ TEST_CASE("what passes its reach, its domain or every bound is left out whole", 
           "this shape may pass the end of the world, about 2,097 km from the origin; it is left out whole");
   }
 
-  // The proof of reach refuses what has no bound; what it should ever let pass is left out here.
+  // The proof of reach refuses shapes without a bound. Here, a program is changed after the proof: derivation must
+  // leave the shape out.
   const auto tame = compiled(
       "sgm 1; domain infinite; layer main cell 64m reach 8m { start Main; }\n"
       "rule Main { Faulty; sphere(2m); }\nrule Faulty { displace 1m*p.x/1m amp 1m { sphere(1m); } }");
@@ -196,7 +197,7 @@ TEST_CASE("of what passes its reach, parts that levels leave out go alone, at ea
 
 #ifdef NDEBUG
 TEST_CASE("a shape beyond the bound that was proven of its layer is noted, and ends there", "[notes]") {
-  // The proof is falsified; a build with assertions ends at such a shape.
+  // The proven bound is replaced by a smaller one. A build with assertions would abort at a shape beyond its bound.
   const auto program = compiled(
       "sgm 1; units m; domain infinite; layer main cell 64m reach 16m { start Main; } rule Main { sphere(4m); }");
   Program falsified = *program;

@@ -8,7 +8,7 @@ using namespace sgm;
 
 namespace {
 
-/// All points of a box of grammar cells, as world positions.
+/// All points that are scattered in a box of grammar cells, as world positions.
 std::vector<Int3> gather(const Lattice& lattice, Int3 from, Int3 to, int32_t radius) {
   std::vector<Int3> all;
   for (int z = from.z; z < to.z; ++z) {
@@ -40,7 +40,8 @@ TEST_CASE("poisson points keep their distance across cell borders") {
       REQUIRE(square >= static_cast<double>(radius) * radius);
     }
   }
-  // The rule's expected density with one candidate in each cube of the radius: (1 - exp(-4/3 pi)) / (4/3 pi) = 0.235.
+  // Expected number of points in a cube with the edge `radius`, if each such cube has one candidate: (1 - exp(-4/3 pi))
+  // / (4/3 pi) = 0.235.
   const double cubes = 4 * 6000.0 * 3 * 5000.0 * 3 * 7001.0 / std::pow(radius, 3.0);
   CHECK(static_cast<double>(points.size()) / cubes > 0.2);
   CHECK(static_cast<double>(points.size()) / cubes < 0.3);

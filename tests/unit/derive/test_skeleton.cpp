@@ -17,14 +17,14 @@ namespace {
 
 bool same(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/// The angle between two vectors in radians, as exact near 0 as elsewhere.
+/// The angle between two vectors in radians, accurate also near 0.
 double angleBetween(Vec3 a, Vec3 b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
 Vec3 headingOf(const Segment& s) { return s.to - s.from; }
 
 int stepOf(const Segment& s, const Turtle& turtle) { return static_cast<int>(std::lround(s.along * turtle.steps)); }
 
-/// The segments of a tree by key; no two segments may have the same key.
+/// The segments of a tree by key; checks that no two segments have the same key.
 std::map<PathKey, Segment> byKey(const Skeleton& skeleton) {
   std::map<PathKey, Segment> all;
   for (const Segment& s : skeleton.segments) all.emplace(s.key, s);
@@ -38,7 +38,7 @@ Turtle randomTurtle(std::mt19937& random) {
   return {1 + std::floor(10 * unit(random)), std::exp(6 * unit(random) - 3), turn, 0.6 * unit(random)};
 }
 
-/// Checks that a tree satisfies the header's contract. Returns the number of its forks.
+/// Checks that a tree satisfies the contract in skeleton.h. Returns the number of forks in the tree.
 int checkTree(const Skeleton& skeleton, const Turtle& turtle) {
   constexpr double kSlack = 1e-7;
   int forks = 0;
@@ -69,7 +69,7 @@ int checkTree(const Skeleton& skeleton, const Turtle& turtle) {
     const double off = angleBetween(headingOf(*parent), headingOf(s));
     REQUIRE(off >= turtle.turn - kSlack);
     REQUIRE(off <= std::min(2 * turtle.turn, kPi / 2) + kSlack);
-    // The parent's branch has a next segment, since no side branch starts where its parent ends.
+    // The parent's branch has a next segment, because no side branch starts at a branch's end.
     const Segment& onward = *(parent + 1);
     REQUIRE(same(onward.from, s.from));
     REQUIRE(angleBetween(headingOf(onward), headingOf(s)) >= turtle.turn - kSlack);
@@ -129,7 +129,7 @@ TEST_CASE("a turtle turns evenly within its cone, to all sides") {
 }
 
 TEST_CASE("as many side branches as `fork` says") {
-  // At each step every branch continues, and a share (0.2) of them forks.
+  // At each step, every branch continues, and a share of 0.2 of the branches gets a side branch.
   const Turtle turtle{8, 1, 0.4, 0.2};
   const double expected = (std::pow(1.2, 8) - 1) / 0.2;
   double segments = 0;
@@ -139,7 +139,7 @@ TEST_CASE("as many side branches as `fork` says") {
   CHECK(segments / trees == Approx(expected).epsilon(0.03));
   CHECK(grownSkeleton(PathKey{1}, {9, 1, 0.4, 0}).segments.size() == 9);
   CHECK(grownSkeleton(PathKey{1}, {9, 1, 0.4, 1}).segments.size() == 511);
-  // Without an angle, side branches would lie on the stem, so there are none.
+  // With an angle of 0, side branches would lie on the stem, so the tree has none.
   CHECK(grownSkeleton(PathKey{1}, {9, 1, 0, 1}).segments.size() == 9);
 }
 
@@ -181,7 +181,7 @@ TEST_CASE("a tree that is too large lacks twigs, not its stem and boughs") {
   CHECK_FALSE(skeleton.whole);
   CHECK(skeleton.segments.size() <= kMaxSegments);
   checkTree(skeleton, turtle);
-  // With a fork at every joint, there are binomial(13, d + 1) segments of depth d.
+  // If every joint forks, there are binomial(13, d + 1) segments of depth d.
   std::map<uint32_t, int> of_depth;
   for (const Segment& s : skeleton.segments) ++of_depth[s.depth];
   const int expected[] = {13, 78, 286, 715, 1287, 1716};
@@ -202,7 +202,7 @@ TEST_CASE("the tree of a grammar is where its scope is, and what stands at a seg
     const auto all = capsules(derivedRules("rule Main { " + grown + " }", cell, world));
     CHECK(all == capsules(derivedRules("rule Main { " + grown + " }", cell, world)));
     CHECK(all != capsules(derivedRules("rule Main { " + grown + " }", cell, world + 1)));
-    // Moving the scope moves the branches by whole units.
+    // Moving the scope by whole units moves the branches by exactly as much.
     const auto moved = capsules(derivedRules("rule Main { at(4m, -8m, 16m) " + grown + " }", cell, world),
                                 {4 * 1024, -8 * 1024, 16 * 1024});
     CHECK(all == moved);

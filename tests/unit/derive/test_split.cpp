@@ -110,7 +110,7 @@ TEST_CASE("a split fills its scope with boxes that overlap by their seams alone,
   const char* axes[] = {"x", "y", "z"};
   for (unsigned round = 0; round < rounds(60); ++round) {
     const auto metresOf = [&](double least, double most) {
-      // All sizes are whole numbers of units at all depths, so that nothing is rounded.
+      // All sizes, also of nested splits, are whole numbers of units, so that nothing is rounded.
       return std::to_string(least + std::floor((most - least) * static_cast<double>(random() % 16)) / 16) + "m";
     };
     const std::string a = axes[random() % 3], b = axes[random() % 3];
@@ -136,13 +136,14 @@ TEST_CASE("a split fills its scope with boxes that overlap by their seams alone,
     CHECK(volume < 1.15 * scope.volume());
     for (size_t i = 0; i < boxes.size(); ++i)
       for (size_t j = 0; j < i; ++j)
-        // Allowed overlap: two units at either side, and half a unit of rounding each.
+        // Allowed overlap: two units on each side, and half a unit of rounding of each box.
         REQUIRE(overlap(boxes[i], boxes[j]) <= 5 / kOneUnit * std::min(boxes[i].volume(), boxes[j].volume()) / 0.02);
   }
 }
 
 TEST_CASE("faces of a box point outwards and cover it", "[split]") {
-  // Thin plates are moved away from the faces by 1 m along z: their places show which direction is outwards.
+  // Thin plates are moved away from the faces by 1 m along the faces' z axis: their places show whether z points
+  // outwards.
   const auto plates = [](const std::string& part) {
     return boxesOf(derivedRules("rule Main { at(20m, 20m, 20m) size(8m, 6m, 4m) comp { " + part +
                                 ": at(z 1m) size(z 0.5m) box(scope); } }"));
@@ -162,11 +163,11 @@ TEST_CASE("faces of a box point outwards and cover it", "[split]") {
   CHECK(is(plates("top").at(0), {0, 4, 0}, {8, 0.5, 4}));
   CHECK(is(plates("bottom").at(0), {0, -4, 0}, {8, 0.5, 4}));
   CHECK(plates("side").size() == 4);
-  // A face that is named separately is no longer one of the sides.
+  // If a face is named separately, `side` no longer includes it.
   const GrammarChunk named = derivedRules(
       "rule Main { size(8m, 6m, 4m) comp { side: size(z 1m) box(scope); front: size(z 2m) box(scope); } }");
   CHECK(boxesOf(named).size() == 4);
-  // Seen from outside, x goes to the right and y up: each mark is in the upper right corner.
+  // As seen from outside, x of a face's scope points right and y up, so that each mark is in the upper right corner.
   const auto marks = boxesOf(derivedRules(
       "rule Main { at(20m, 20m, 20m) size(8m, 6m, 4m) comp { side: at(0.5*scope.x, 0.5*scope.y, 0m) box(1m); } }"));
   REQUIRE(marks.size() == 4);
@@ -174,7 +175,7 @@ TEST_CASE("faces of a box point outwards and cover it", "[split]") {
   CHECK(is(marks[1], {4, 3, -2}, {1, 1, 1}));
   CHECK(is(marks[2], {-4, 3, -2}, {1, 1, 1}));
   CHECK(is(marks[3], {-4, 3, 2}, {1, 1, 1}));
-  // At the vertical edges, y goes up, and x and z lead out of the box.
+  // In the scopes of the vertical edges, y points up, and x and z point out of the box.
   const auto edges = boxesOf(derivedRules(
       "rule Main { at(20m, 20m, 20m) size(8m, 6m, 4m) comp { edges: at(1m, 0m, 1m) size(x 1m, z 1m) box(scope); } }"));
   REQUIRE(edges.size() == 4);
@@ -201,7 +202,7 @@ TEST_CASE("each part draws for itself and has a path of its own", "[split]") {
   const std::vector<double> edited = sizes(boxesOf(derived(*compiled(text + "override \"Main/L[3]\" { box(3m); }\n"))));
   REQUIRE(edited.size() == 11);
   for (size_t i = 0; i < 11; ++i) CHECK((edited[i] == plain[i]) == (i != 3));
-  // Another number of copies changes neither the parts behind them nor the copies that remain.
+  // A different number of copies changes neither the parts behind the copies nor the copies that remain.
   std::string longer = text;
   longer.replace(longer.find("20m, 6m"), 3, "24m");
   const std::vector<double> more = sizes(boxesOf(derived(*compiled(longer))));
@@ -249,8 +250,8 @@ TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no f
     return lines;
   };
   int snapped = 0, all = 0;
-  // At least 300 wings in every build, for the shares checked below: the few lines of one wing snap together or not at
-  // all, so with twenty wings, less than a fifth of them would snap in one run of thirty.
+  // Every build tests at least 300 wings, because the shares are checked below. The few floors of one wing snap
+  // together or not at all, so with only twenty wings, less than a fifth of the floors would snap in one run of thirty.
   const unsigned wings = std::max(rounds(300), 300u);
   for (unsigned round = 0; round < wings; ++round) {
     const std::string low = std::to_string(-4 + 3 * unit(random)), tall = std::to_string(8 + 4 * unit(random));
@@ -264,7 +265,7 @@ TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no f
       if (free[i] > top) continue;
       const double from = (free[i] - 0.7) / 3.2, nearest = (std::floor(from + 0.5) - from) * 3.2;
       ++all;
-      if (std::fabs(std::fabs(nearest) - 0.6) < 0.005) continue;  // at the snapping distance, rounding decides
+      if (std::fabs(std::fabs(nearest) - 0.6) < 0.005) continue;  // so near the snapping distance, rounding decides
       const bool near = std::fabs(nearest) < 0.6;
       snapped += near;
       CHECK(held[i] == Approx(free[i] + (near ? nearest : 0)).margin(0.006));
@@ -273,7 +274,7 @@ TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no f
   CAPTURE(all);
   CHECK(snapped > all / 5);
   CHECK(snapped < all * 4 / 5);
-  // Snap planes along another axis, or of a block beside the wing, have no effect on it.
+  // Snap planes along another axis, or in a block that does not contain the wing, have no effect on the wing.
   const std::string plain = "size(4m, 10m, 4m) Wing;";
   CHECK(tops("snap x 4.2m", plain) == tops("", plain));
   CHECK(tops("", "snap y 4.2m { } " + plain) == tops("", plain));

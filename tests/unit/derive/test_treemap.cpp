@@ -48,7 +48,7 @@ Drawn drawnPlan(std::mt19937& random, size_t max_rooms = 10) {
   return out;
 }
 
-/// The open parts of a plan as rectangles, each with the number of its room, or none.
+/// The open parts of a plan as rectangles, each with the index of its room, or SIZE_MAX for corridors and doors.
 std::vector<std::pair<PlanRect, size_t>> openOf(const FloorPlan& plan) {
   std::vector<std::pair<PlanRect, size_t>> out;
   for (size_t room = 0; room < plan.rooms.size(); ++room)
@@ -100,7 +100,7 @@ TEST_CASE("rooms share a floor in proportion, without gaps, and are nearer to sq
       REQUIRE(r.z1 <= whole.z1);
       REQUIRE((r.x0 - whole.x0) % 2 == 0);
       REQUIRE((r.z0 - whole.z0) % 2 == 0);
-      // The areas are exact up to the rounding of each line to two units.
+      // Areas are exact, except that each line is rounded to two units.
       const double wanted = weights[i] / total * areaOf(whole);
       REQUIRE(std::fabs(areaOf(r) - wanted) <= 4.0 * (r.width() + r.depth()) + 16);
       covered += areaOf(r);
@@ -129,7 +129,7 @@ TEST_CASE("every room of a thousand floors can be reached from outside, through 
     REQUIRE(plan.closed.empty());
     REQUIRE(!plan.doors.empty());
     REQUIRE(plan.doors[0].from == PlanDoor::kOutside);
-    // Walks only through open space: from the hole of the entrance to all holes and rooms that touch.
+    // Floods the open space from the opening of the entrance: openings, corridors and rooms that touch are connected.
     const auto open = openOf(plan);
     std::vector<bool> seen(open.size(), false), reached(plan.rooms.size(), false);
     std::vector<size_t> next;
@@ -168,7 +168,8 @@ TEST_CASE("every room of a thousand floors can be reached from outside, through 
 }
 
 TEST_CASE("most floors have a corridor, and most rooms that are linked meet", "[treemap]") {
-  // The same floors in every run and build: with random ones, or fewer, a share could be out of its bounds by chance.
+  // Every run and build tests the same floors: with random or fewer floors, a share could be out of its bounds by
+  // chance.
   std::mt19937 random(1);
   const int floors = static_cast<int>(std::max(rounds(1000), 1000u));
   int corridors = 0, through = 0, links = 0, lost = 0;
@@ -186,7 +187,7 @@ TEST_CASE("most floors have a corridor, and most rooms that are linked meet", "[
   }
   CAPTURE(corridors, through, links, lost);
   CHECK(corridors > floors / 4);
-  // A room is reached through another one without a requested link only if no corridor from the entrance fits.
+  // A room is entered through another room without a requested link only if no corridor from the entrance fits.
   CHECK(through <= floors / 8);
   CHECK(lost <= links / 6);
 }
@@ -197,7 +198,7 @@ TEST_CASE("rooms that are linked come to lie beside each other, in the shapes of
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
   size_t links_seen = 0, plain_met = 0, met = 0;
-  // In every build, at least 100 floors, enough for the share of links checked below.
+  // Every build tests at least 100 floors, enough for the share of links checked below.
   for (unsigned round = 0; round < std::max(rounds(200), 100u); ++round) {
     const PlanRect whole{-4000, 200, -4000 + 2 * static_cast<int32_t>(4000 + 6000 * unit(random)),
                          200 + 2 * static_cast<int32_t>(4000 + 6000 * unit(random))};
@@ -215,7 +216,7 @@ TEST_CASE("rooms that are linked come to lie beside each other, in the shapes of
     const auto rooms = linkedRooms(whole, areas, links, 256, 2, work);
     double covered = 0;
     for (size_t i = 0; i < rooms.size(); ++i) {
-      // The sizes are equal up to the rounding of lines.
+      // Rooms have the same sizes as in the plain treemap, up to the rounding of wall positions.
       REQUIRE(std::abs(rooms[i].width() - plain[i].width()) <= 4);
       REQUIRE(std::abs(rooms[i].depth() - plain[i].depth()) <= 4);
       REQUIRE(rooms[i].x0 >= whole.x0);

@@ -1,4 +1,4 @@
-// Tests the results of operators, functions and members, by the radius of a sphere.
+// Tests the results of operators, functions and members: each result becomes the radius of a sphere.
 
 #include <cmath>
 
@@ -8,7 +8,8 @@ using namespace sgm;
 
 namespace {
 
-/// The radius of `sphere(expression)` in the grammar cell 1 2 3. before: statements in front of it in its rule.
+/// The radius of `sphere(expression)` in the grammar cell (1, 2, 3). before: statements before the sphere in the same
+/// rule.
 double radiusOf(const std::string& expression, const std::string& before = {}) {
   const GrammarChunk chunk = derivedRules(
       "let twice(x) = 2*x; let three = 3; rule Main { " + before + " meet { box(9m); sphere(" + expression + "); } }",

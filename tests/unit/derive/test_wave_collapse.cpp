@@ -1,5 +1,5 @@
-// Tests wave function collapse: a solution satisfies every side, a solution is found if one exists, and otherwise none
-// is claimed.
+// Tests wave function collapse: in a solution, the adjacent sides of all tiles fit. A solution is found if one exists,
+// and otherwise none is claimed.
 
 #include <algorithm>
 #include <bit>
@@ -43,7 +43,7 @@ DrawnWave drawnWave(std::mt19937& random, unsigned max_tiles, unsigned most_edge
   return out;
 }
 
-/// The place across a side of a place; nullopt at the border.
+/// The place that is adjacent at this side; nullopt at the lattice's border.
 std::optional<uint32_t> beyond(const WaveLattice& lattice, uint32_t place, size_t side) {
   constexpr int kSteps[6][3] = {{0, 0, 1}, {1, 0, 0}, {0, 0, -1}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
   const auto& n = lattice.size;
@@ -58,7 +58,7 @@ std::optional<uint32_t> beyond(const WaveLattice& lattice, uint32_t place, size_
 
 constexpr size_t kAcross[6] = {2, 3, 0, 1, 5, 4};
 
-/// Whether a tile is compatible with the tiles at the neighbouring places that come before its place.
+/// Whether a tile is compatible with the tiles at those neighbouring places that are already filled.
 bool fitsBeside(const DrawnWave& wave, const std::vector<uint16_t>& tiles, uint32_t place, uint16_t tile) {
   for (size_t side = 0; side < 6; ++side) {
     const std::optional<uint32_t> other = beyond(wave.lattice, place, side);
@@ -92,7 +92,7 @@ void checkSolution(const DrawnWave& wave, const WaveResult& result) {
   }
 }
 
-/// Tiles with pipes in a plane: one for every set of at least two sides at which a pipe may leave.
+/// Tiles with pipes in a plane: one tile for every set of sides at which pipes leave, except single sides.
 std::vector<WaveTile> pipes() {
   std::vector<WaveTile> out;
   for (unsigned open = 0; open < 16; ++open) {
@@ -136,7 +136,7 @@ TEST_CASE("large lattices of drawn tiles are filled so that every side fits, or 
   CAPTURE(seed);
   std::mt19937 random(seed);
   unsigned solved = 0;
-  // At least 100 lattices in every build: of twenty, it may happen that only a quarter is solved.
+  // Every build tests at least 100 lattices: of only twenty, it may happen that just a quarter is solved.
   const unsigned lattices = std::max(rounds(100), 100u);
   for (unsigned round = 0; round < lattices; ++round) {
     const DrawnWave wave = drawnWave(random, 24, 12);
@@ -180,7 +180,7 @@ TEST_CASE("tiles are drawn in proportion to their weights where everything fits"
 }
 
 TEST_CASE("what nothing fits is said with what it would have to meet", "[wfc]") {
-  // Tiles 1 and 2 alternate along x: an odd number of places cannot begin with 1 and end with 2.
+  // Tiles 1 and 2 must alternate along x, so an odd number of places cannot begin with 1 and end with 2.
   std::vector<WaveTile> tiles(2);
   for (WaveTile& tile : tiles) tile.sides.fill(8);
   tiles[0].sides[3] = 1;
@@ -196,7 +196,7 @@ TEST_CASE("what nothing fits is said with what it would have to meet", "[wfc]") 
   CHECK(odd.end == WaveEnd::impossible);
   CHECK((odd.wanted[1] & odd.wanted[3]) != 0);
   CHECK(odd.wanted[4] == 8);
-  // A border label that no tile has.
+  // No tile has this border label.
   lattice.border[4] = 4;
   const WaveResult top = collapseWave(tiles, lattice, 1, kEnough);
   CHECK(top.end == WaveEnd::impossible);
@@ -205,7 +205,8 @@ TEST_CASE("what nothing fits is said with what it would have to meet", "[wfc]") 
 }
 
 TEST_CASE("a search that is too long is given up and counted", "[wfc]") {
-  // A parity problem that propagation does not detect: pipes would have to cross a cut an odd number of times.
+  // A problem without a solution by parity, which propagation does not detect: pipes would have to cross a cut an odd
+  // number of times.
   const std::vector<WaveTile> tiles = pipes();
   WaveLattice lattice;
   lattice.size = {12, 1, 12};
@@ -214,7 +215,7 @@ TEST_CASE("a search that is too long is given up and counted", "[wfc]") {
   CHECK(result.end == WaveEnd::gave_up);
   CHECK(result.tiles.empty());
   CHECK(result.visits == 200);
-  // The limit does not even allow one visit of each of the 144 places.
+  // The limit of 143 visits does not even allow one visit of each of the 144 places.
   const WaveResult none = collapseWave(tiles, lattice, 1, 143);
   CHECK(none.end == WaveEnd::gave_up);
   CHECK(none.place == kNoPlace);
@@ -223,7 +224,7 @@ TEST_CASE("a search that is too long is given up and counted", "[wfc]") {
 
 TEST_CASE("a search is given up within one choice, however far that reaches", "[wfc]") {
   // Each tile requires the next one on its left, except the last, which fits only to itself: so the choice of one tile
-  // removes all others, one after the other, at all places.
+  // removes all other tiles at all places, one after the other.
   std::vector<WaveTile> tiles(60);
   for (size_t t = 0; t < tiles.size(); ++t) {
     tiles[t].sides.fill(1);

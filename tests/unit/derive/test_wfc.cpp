@@ -31,7 +31,7 @@ constexpr const char* kSides[6] = {"front", "right", "back", "left", "top", "bot
 constexpr const char* kMarks[6] = {"z 0.5*scope.z - 0.1m", "x 0.5*scope.x - 0.1m", "z 0.1m - 0.5*scope.z",
                                    "x 0.1m - 0.5*scope.x", "y 0.5*scope.y - 0.1m", "y 0.1m - 0.5*scope.y"};
 
-/// Tiles on each of whose sides a small box marks the side's label: the box's material has the label's name.
+/// Random tiles. Each side that has a label also has a small box, whose material is named after the label.
 std::string markedTiles(std::mt19937& random, const std::string& size, bool border) {
   const char* labels[] = {"red", "green", "blue"};
   const auto label = [&] { return labels[random() % 3]; };
@@ -98,7 +98,7 @@ TEST_CASE("sides that touch have a label in common, however tiles are turned and
     CAPTURE(round, full);
     const CompileResult result = compileGrammar(full, "test.sgm");
     if (!result.program) {
-      // The grammar is invalid if a side fits to nothing.
+      // A label that fits no other side makes the grammar invalid.
       REQUIRE(result.diagnostics[0].code == "unknown-name");
       continue;
     }
@@ -112,7 +112,7 @@ TEST_CASE("sides that touch have a label in common, however tiles are turned and
     const auto marks = marksOf(*result.program, chunk);
     const size_t places = static_cast<size_t>(n[0] * n[1] * n[2]);
     REQUIRE(marks.size() <= 6 * places);
-    // Marks on the two sides of a line between two places form pairs, 0.2 m apart.
+    // Adjacent places have a mark each at their common border: such marks form pairs, 0.2 m apart.
     size_t met = 0;
     for (size_t a = 0; a < marks.size(); ++a) {
       for (size_t b = a + 1; b < marks.size(); ++b) {
@@ -125,7 +125,7 @@ TEST_CASE("sides that touch have a label in common, however tiles are turned and
       }
     }
     const int lines = (n[0] - 1) * n[1] * n[2] + n[0] * (n[1] - 1) * n[2] + n[0] * n[1] * (n[2] - 1);
-    // A missing mark leaves at most one line without its pair.
+    // Each missing mark breaks at most one pair.
     REQUIRE(met <= static_cast<size_t>(lines));
     REQUIRE(met + (6 * places - marks.size()) >= static_cast<size_t>(lines));
     pairs += static_cast<unsigned>(met);
@@ -186,7 +186,7 @@ TEST_CASE("a lattice is the same wherever and whenever it is derived, and anothe
 }
 
 TEST_CASE("walls run on from tile to tile, and their ends meet", "[wfc]") {
-  // In a field of lawn, walls form closed loops: their corner tiles are even in number, and at least four.
+  // In a lawn, walls form closed loops, so the number of their corner tiles is even, and at least four.
   const auto program = ofTiles(kMeadow);
   unsigned walls = 0;
   for (uint64_t seed = 0; seed < 30; ++seed) {
@@ -237,7 +237,7 @@ TEST_CASE("an override by tag changes what stands in a tile, wherever that stand
 TEST_CASE("what is searched for in vain leaves the tiles beside it as they are", "[wfc]") {
   const std::string field =
       "rule Field { size(20m, 1m, 20m) wfc 1m { a 1: { box(0.5m); mat a; } b 1: { box(0.5m); mat b; } } }";
-  // The search finds no solution, and does not prove that there is none.
+  // The search ends without a solution, and without a proof that there is none.
   const std::string vain =
       "rule Vain { size(9m, 1m, 9m) wfc 1m { border side edge; half 1 turn, front pair, side edge: box(scope); } }";
   const auto alone = ofTiles("rule Main { repeat 0 Vain; Field; }" + vain + field);
@@ -272,7 +272,7 @@ TEST_CASE("each tile draws for itself", "[wfc]") {
 }
 
 TEST_CASE("what meets others than its own kind stands beside those alone", "[wfc]") {
-  // Arrows that must be placed head to tail: all arrows of a line have one direction.
+  // The arrows must be placed head to tail, so all arrows of a line have one direction.
   const auto arrows = ofTiles(
       "rule Main { size(24m, 1m, 2m) wfc 2m { arrow 1 turn, left tail meets head, right head meets tail, front flank, "
       "back flank: at(x 0.5m) { box(0.5m); mat mark; } } }");
@@ -286,7 +286,7 @@ TEST_CASE("what meets others than its own kind stands beside those alone", "[wfc
     ways.insert(at[0] > -11);
   }
   CHECK(ways.size() == 2);
-  // Towers fit only to walls, and walls fit to both: no two towers are side by side.
+  // Towers fit only to walls, and walls fit to both walls and towers: no two towers are side by side.
   const auto towers = ofTiles(
       "rule Main { size(16m, 2m, 16m) wfc 2m { tower 9, side post meets wall: { box(1m); mat tower; } wall 1, side "
       "wall "

@@ -29,8 +29,8 @@ double referenceOf(const ProgramView& program, const ProgramGroup& g, uint32_t c
   return referenceField(view, p);
 }
 
-// Bounds of the float value of a program with one group at one point: computed from the reference values of its leaves,
-// and the stated error of each operation above them.
+// Bounds of the float value at one point, for a program with one group: computed from the reference values of the
+// leaves, and the error that ops.def states for each operation above them.
 Interval boundsAt(const ProgramView& program, Int3 p) {
   const ProgramGroup& g = program.groups[0];
   const PlaceBox here = placeBox({p, p});
@@ -65,7 +65,7 @@ Interval boundsAt(const ProgramView& program, Int3 p) {
       case Op::prism:
       case Op::blob:
         out = boundPosition(in.op, params, here, a);
-        // At a warped place, rounding may choose the next unit on each axis, so the bounds are wider.
+        // At a warped position, rounding may choose the next unit on each axis, so the bounds are wider.
         if (in.place != 0) {
           const double v = referenceOf(program, g, i + 1, in.dst, p);
           out = {v - 2 - 1e-5 * std::abs(v), v + 2 + 1e-5 * std::abs(v)};
@@ -144,7 +144,7 @@ TEST_CASE("every op is as close to the double-precision reference as its operand
 
 namespace {
 
-// A program with a single operation: one that reads a position, or one on constants, which have no error themselves.
+// A program with a single operation, which either reads a position, or takes constants, which have no error themselves.
 FieldProgram lonely(Op op, std::mt19937& random, Int3 centre) {
   const FieldProgram drawn = programOf(op, random, centre);
   if (drawn.instrs.size() == 1) return drawn;
@@ -215,7 +215,7 @@ FieldProgram lonely(Op op, std::mt19937& random, Int3 centre) {
 TEST_CASE("no op's float error is more than the relative error that ops.def states", "[costly]") {
   for (int o = 0; o < static_cast<int>(Op::count); ++o) {
     const Op op = static_cast<Op>(o);
-    // A warp has no value of its own; the ops of a round or a sum are measured at its last op.
+    // A warp has no value of its own, and the error of a round or a sum is measured at the last op of the round or sum.
     if (op == Op::warp || op == Op::round_begin || op == Op::round_add || op == Op::sum_begin || op == Op::sum_add)
       continue;
     std::mt19937 first(1);
@@ -229,7 +229,7 @@ TEST_CASE("no op's float error is more than the relative error that ops.def stat
       std::mt19937 random(seed);
       const Int3 centre = kTestCentres[seed % std::size(kTestCentres)];
       const FieldProgram program = lonely(op, random, centre);
-      // Points near the shapes, where they are curved, and 500 km away.
+      // Points near the shapes, where the field is curved, and points 500 km away.
       PointSet points = randomPoints(random, centre, 40'000, reads_position ? 400 : 1);
       if (reads_position) {
         const PointSet far = randomPoints(random, centre, 500'000'000, 200);
@@ -248,7 +248,7 @@ TEST_CASE("no op's float error is more than the relative error that ops.def stat
         const double half = of_one ? statedError(op) : (bounds.hi - bounds.lo) / 2;
         const double relative = off == 0 ? 0 : half == 0 ? 1 : off / half * std::max(statedError(op), 1e-30);
         if (op == Op::sweep && relative > statedError(op)) {
-          ++ties;  // two segments are equally near
+          ++ties;  // a tie: two segments are equally near
           continue;
         }
         worst = std::max(worst, relative);

@@ -36,7 +36,8 @@ GrammarChunk cellOf(std::mt19937& random, Int3 cell, uint32_t layers, uint32_t m
     group.root = i;
     group.cut = random() % 3 == 0;
     group.bounds = IntBox{centre, centre}.grown(radius);
-    // Few different keys, so that equal ones are common: then the cell and the group's number decide the order.
+    // There are few different keys, so that groups often have equal keys: then the cell and the group's number decide
+    // their order.
     group.key.value = random() % 8;
     chunk.groups.push_back(group);
   }
@@ -102,7 +103,7 @@ TEST_CASE("the index finds exactly the groups that a scan finds") {
   for (uint32_t seed = 1; seed <= 60; ++seed) {
     std::mt19937 random(seed);
     GrammarChunk chunk = cellOf(random, {}, 1, seed % 7 == 0 ? 9u : 400u, 60'000);
-    // Some groups have equal boxes, and one has a box that holds the whole world.
+    // Some groups have equal bounds, and one has bounds that contain the whole world.
     for (size_t i = 0; i < chunk.groups.size() && seed % 3 == 0; i += 2)
       chunk.groups[i].bounds = chunk.groups[0].bounds;
     if (!chunk.groups.empty() && seed % 4 == 0) chunk.groups.back().bounds = IntBox::everything();
@@ -110,7 +111,7 @@ TEST_CASE("the index finds exactly the groups that a scan finds") {
     for (int i = 0; i < 40; ++i) {
       const Int3 at{within(random, 80'000), within(random, 80'000), within(random, 80'000)};
       const IntBox box = i == 0 ? IntBox::everything() : IntBox{at, at}.grown(1 << random() % 16);
-      std::pmr::vector<uint32_t> expected, found{77};  // existing elements must stay
+      std::pmr::vector<uint32_t> expected, found{77};  // found has an element that compile() must keep
       for (uint32_t g = 0; g < chunk.groups.size(); ++g) {
         if (chunk.groups[g].bounds.meets(box)) expected.push_back(g);
       }
@@ -174,7 +175,7 @@ TEST_CASE("balls of a sum that weigh nothing where a field is read change no bit
     REQUIRE(near);
     REQUIRE(whole);
     REQUIRE(near->instrs.size() <= whole->instrs.size());
-    // The op under a warp is evaluated elsewhere, so pruning for this box must not remove it.
+    // A warp evaluates its operand at displaced positions, so pruning for this box must not remove the operand.
     if (shift > 0) CHECK(near->instrs.size() == whole->instrs.size());
     left_out += whole->instrs.size() - near->instrs.size();
     const PointSet points = randomPoints(random, at, half, 500);

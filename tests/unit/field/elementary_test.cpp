@@ -14,7 +14,7 @@ using std::memcpy;
 
 #include "common/common.h"
 
-// The mantissas of two successive powers of two: these are all cases of a function that scales with the exponent.
+// Number of floats from 0.5 up to 2, which have two exponents: all cases of a function that scales with the exponent.
 constexpr uint32_t kMantissas = 1u << 24;
 
 float atStep(uint32_t step) { return uniformFloat(0x3F000000u + step); }
@@ -144,7 +144,7 @@ TEST_CASE("a place in the noise lattice is exact over every offset and period") 
     const auto offset = static_cast<int32_t>(random());
     const auto period = static_cast<int32_t>(1 + (random() >> (1 + random() % 31)));
     check(offset, period);
-    // Positions at and beside the corners of the noise lattice.
+    // Positions at the corners of the noise lattice, and next to them.
     const int64_t corner = int64_t{offset} / period * period + static_cast<int64_t>(random() % 3) - 1;
     check(static_cast<int32_t>(std::min<int64_t>(std::max<int64_t>(corner, INT32_MIN), INT32_MAX)), period);
   }

@@ -50,7 +50,7 @@ TEST_CASE("the slopes between a lattice's samples near the field's with the squa
     ProgramBuilder builder(spacing, false, 0);
     REQUIRE(builder.group(builder.lattice(at, samples, kFarSample, 0), IntBox::everything(), 0, false));
     const FieldProgram program = builder.finish();
-    // Points on the edges of cells, as vertices are.
+    // Points on the edges of cells, where vertices lie.
     std::mt19937 random(static_cast<uint32_t>(spacing));
     std::vector<int32_t> p[3];
     for (int i = 0; i < 4000; ++i) {
@@ -85,8 +85,8 @@ TEST_CASE("analytic gradients follow the field") {
     for (uint32_t seed = 1; seed <= 12; ++seed) {
       std::mt19937 random(seed * 77 + static_cast<uint32_t>(o));
       const FieldProgram program = programOf(op, random, {});
-      if (shortestPeriod(program) < 128) continue;  // noise finer than the step of the differences
-      if (reads(program, Op::lattice)) continue;    // smoother than its samples; a separate test covers it
+      if (shortestPeriod(program) < 128) continue;  // the noise is finer than the step of the difference quotient
+      if (reads(program, Op::lattice)) continue;    // its gradients are smoothed: tested separately
       const PointSet points = randomPoints(random, {}, 20'000, 60);
       const Evaluated e = evaluate(scalarKernels(), program.view(), points.points());
       for (size_t i = 0; i < points.x.size(); ++i) {
@@ -106,7 +106,7 @@ TEST_CASE("analytic gradients follow the field") {
           change += (d[a] - half[a]) * (d[a] - half[a]);
           error += (g[a] - half[a]) * (g[a] - half[a]);
         }
-        // Near a crease, differences with the two step widths disagree: no gradient is correct there.
+        // Near a crease, difference quotients with two step widths disagree: no gradient is correct there.
         if (change > 1e-6 * (norm + 1e-6)) continue;
         ++compared;
         const bool wrong = error > 4e-4 * norm + 1e-6;

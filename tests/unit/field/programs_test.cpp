@@ -56,7 +56,7 @@ TEST_CASE("one seed means one random program, whatever the compiler") {
     add(randomProgram(random, options));
     for (int o = 0; o < static_cast<int>(Op::count); ++o) add(programOf(static_cast<Op>(o), random, {}));
   }
-  // Changes of the generator of random programs require a new hash here.
+  // After a change of the generator of random programs, update this hash.
   CHECK(hash == 0xa56a6131dfc0950du);
 }
 

@@ -87,7 +87,7 @@ TEST_CASE("bounds hold where sample and centre are more than an int32 apart, and
     f.origin = {-2'000'000'000, 1'900'000'000, 1'900'000'000};
     const float third = 0.57735f;
     f.rows = {0.81650f, -0.40825f, -0.40825f, third, third, third, 0, 0.70711f, -0.70711f};
-    // Without saturation of int32, the sum of the offsets would be positive.
+    // If int32 did not saturate, the sum of the offsets would be positive.
     CHECK(check(b, b.halfspace(f, 0), {2'100'000'000, 0, 0}) < 0);
   }
   SECTION("a comparison of a coordinate") {
@@ -105,7 +105,7 @@ TEST_CASE("bounds hold where sample and centre are more than an int32 apart, and
     const Value t = b.coordinate({2'048'000'000, 0, 0}, 0.001f, 0, 0);
     check(b, b.powerMorph(f, sizes, t, 0), {2'048'000'000, -2'000'000'000, 5});
   }
-  // A warp displaces a point by 1,048,576 m at most: here, to the middle of the ball.
+  // A warp displaces a point by at most 1,048,576 m, here into the middle of the ball.
   SECTION("a place warped farther than a warp goes") {
     ProgramBuilder b(512, false, 0);
     const Value far = b.constant(2e6f), none = b.constant(0);
@@ -117,7 +117,7 @@ TEST_CASE("bounds hold where sample and centre are more than an int32 apart, and
 }
 
 TEST_CASE("a gradient that outgrows float32 does not cost a pruned program its bits") {
-  // Around x = 1 km, the morph's amount is beyond 1, and the slope of the amount beyond float32's range.
+  // Near x = 1 km, the morph's amount is above 1, and the slope of the amount exceeds the range of float32.
   ProgramBuilder b(512, false, 0);
   Value t = b.coordinate({}, 1, 0, 0);
   for (int i = 0; i < 5; ++i) t = b.binary(Op::multiply, t, t);
@@ -143,7 +143,7 @@ TEST_CASE("a cut that does not reach a box takes nothing from what lies however 
   ProgramBuilder b(512, false, 0);
   Frame f;
   f.rows = {0, 0, 1, 1, 0, 0, 0, 1, 0};
-  f.origin = {2'000'000'000, 0, 0};  // the box is some 3,900 km inside
+  f.origin = {2'000'000'000, 0, 0};  // the tested box lies some 3,900 km inside the half-space
   (void)b.group(b.halfspace(f, 1), IntBox::everything(), 0, false);
   const IntBox away{{0, 0, 0}, {1000, 1000, 1000}};
   (void)b.group(b.sphere({500, 500, 500}, 400, 2), away, 0, true);
@@ -188,7 +188,7 @@ TEST_CASE("a pruned program keeps every bit of every sample and attribute") {
     before += program.instrs.size();
     after += pruned.instrs.size();
     CHECK(differentBits(expected, evaluate(scalarKernels(), pruned.view(), points.points())) == 0);
-    // Prunes repeatedly as chunks do: an octant of the box from what is left of the box's program.
+    // Prunes repeatedly, as chunks do: prunes the box's program again for an octant of the box.
     const Int3 middle{box.lo.x + (box.hi.x - box.lo.x) / 2, box.lo.y + (box.hi.y - box.lo.y) / 2,
                       box.lo.z + (box.hi.z - box.lo.z) / 2};
     const IntBox octant{box.lo, middle};

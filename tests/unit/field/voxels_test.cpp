@@ -23,7 +23,7 @@ int32_t between(std::mt19937& random, int32_t low, int32_t high) {
   return std::uniform_int_distribution<int32_t>(low, high)(random);
 }
 
-/// A world of voxels: any function of their indices; here random clumps.
+/// A world of voxels, each solid or not by a function of its indices: here random clumps.
 struct VoxelWorld {
   uint64_t seed = 0;
   int32_t edge = 1024;
@@ -42,7 +42,7 @@ struct VoxelWorld {
   }
 };
 
-/// The part of the world in a grammar cell, as derivation makes it.
+/// The part of the world in one grammar cell, as derivation would return it.
 GrammarChunk pieceOf(const VoxelWorld& world, Int3 cell, int32_t cell_edge, int32_t height = 1 << 18) {
   GrammarChunk chunk;
   chunk.cell = cell;
@@ -184,7 +184,7 @@ TEST_CASE("voxels are as smooth as is said, at every level") {
       Int3 p;
       for (int axis = 0; axis < 3; ++axis) p[axis] = world.anchor[axis] + between(random, 0, cell_edge);
       if (i % 3 == 0) {
-        // The exact position of a voxel.
+        // Every third place is the exact lattice position of a voxel.
         for (int axis = 0; axis < 3; ++axis) p[axis] = world.anchor[axis] + between(random, 0, 12) * world.edge;
       }
       places.push_back(p);
@@ -194,7 +194,7 @@ TEST_CASE("voxels are as smooth as is said, at every level") {
     for (size_t i = 0; i < places.size(); ++i) {
       const double wanted = expected.at(places[i]);
       CAPTURE(i, places[i].x, places[i].y, places[i].z);
-      // A sample lies at whole units; 7/8 or 1/4 of a voxel's edge may not, so the value may differ by rounding.
+      // Samples lie at whole units, but 7/8 or 1/4 of a voxel's edge may not, so the value may differ by rounding.
       CHECK(std::abs(static_cast<double>(found.value[i]) - wanted) < 2.01);
       if (i % 3 == 0 && cell < 2 * world.edge) {
         const Int3 off = saturatingSub(places[i], world.anchor);
@@ -211,7 +211,8 @@ TEST_CASE("voxels in pieces are the same as in one, to the bit, at every level")
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(12); ++round) {
     const VoxelWorld world = anyWorld(random);
-    // Two pieces along each axis, of any size, whole numbers of voxels or not; and one piece that holds all of them.
+    // Eight pieces, two along each axis, whose sizes need not be whole numbers of voxels, and one piece that contains
+    // all of them.
     const int32_t small = between(random, 3 * world.edge, 9 * world.edge),
                   cell = world.edge * between(random, 1, 8) / 2;
     const Int3 home{between(random, -3, 3), 0, between(random, -3, 3)};
@@ -278,7 +279,7 @@ TEST_CASE("a warp reads voxels wherever it leads") {
 TEST_CASE("below a warp, what few places read is what many do") {
   const VoxelWorld world{4, 1024, {}, false};
   GrammarChunk piece = pieceOf(world, {}, 24 * 1024);
-  // A displacement of (1.7 n, -0.9 n, n * x) metres with noise n from -1 to 1, partly dependent on the position.
+  // A displacement of (1.7 n, -0.9 n, n * x) metres, where n is noise from -1 to 1, and x depends on the position.
   Expr n, amount, less, x;
   n.op = ExprOp::noise, n.noise = 0;
   amount.value = 1.7f, less.value = -0.9f;

@@ -127,7 +127,7 @@ TEST_CASE("rock without an end has no sky, however far a ray goes") {
       CHECK((look(world, {0, 0, 0}, {1, 0, 0}).daylight == 0) == (solid && endless));
     }
   }
-  // In an endless void world of stacked islands, the distance after which a ray counts as reaching the sky is shorter.
+  // In an endless void world of stacked islands, a shorter distance suffices for a ray to count as reaching the sky.
   CHECK(LitWorld::of(false, true).sky_metres < LitWorld::of(false, false).sky_metres);
   LitWorld broken = LitWorld::of(false, false);
   broken.cast = [](const Metres3&, const Metres3&, double) -> Result<std::optional<RayEnd>> {
@@ -142,7 +142,7 @@ TEST_CASE("the light of a flight does not flicker") {
   cli::SteadyLight light;
   const double enough = cli::kEnoughDaylight;
   CHECK(light.next(2 * enough, false) == Light::sun);
-  // Values around the threshold do not change the light, nor does a single look beyond it.
+  // Values around the threshold do not change the light, and neither does a single value far from it.
   for (int i = 0; i < 20; ++i) CHECK(light.next(enough * (i % 2 == 0 ? 0.7 : 1.3), false) == Light::sun);
   CHECK(light.next(0, false) == Light::sun);
   CHECK(light.next(enough, false) == Light::sun);

@@ -42,7 +42,7 @@ inline Octree randomTree(std::mt19937& random) {
 
 inline sgm_chunk_key publicKey(const ChunkKey& key) { return {key.level, key.at.x, key.at.y, key.at.z}; }
 
-/// The drawn parts of each chunk of an octree.
+/// For each chunk of an octree, the parts to draw.
 using Drawing = std::map<ChunkKey, cli::DrawnParts>;
 inline Drawing drawingOf(const Octree& tree) {
   Drawing drawing;
@@ -50,7 +50,7 @@ inline Drawing drawingOf(const Octree& tree) {
   return drawing;
 }
 
-/// The field of a closed world, and the meshes requested so far, with all seams.
+/// The field of a closed world, and the meshes of the chunks requested so far, with all seams.
 class MeshedWorld {
  public:
   /// flags: bits of sgm_meshing_flag.

@@ -115,7 +115,7 @@ TEST_CASE("the same seed makes the same flight, another seed another one") {
   FlightPath first = world.fly(settings), second = again.fly(settings);
   settings.seed = 4;
   FlightPath other = world.fly(settings);
-  // The order of the calls has no influence.
+  // Places do not depend on the order of the calls.
   const FlightPlace far = placeAt(second, 100);
   double apart = 0;
   for (double s = 0; s < 100; s += 5) {
@@ -222,7 +222,7 @@ TEST_CASE("a path of points goes through them, evenly") {
     for (double s = 0; s < 150; s += 0.1) {
       const double step = glm::length(placeAt(path, s + 0.1).position - placeAt(path, s).position);
       if (loop || s + 0.1 < *path.length()) {
-        CHECK(step > 0.09);  // a chord of the curve
+        CHECK(step > 0.09);  // the chord of the curve is slightly shorter than 0.1 m
         CHECK(step < 0.1001);
       } else if (s > *path.length()) {
         CHECK(step == 0);

@@ -78,7 +78,7 @@ TEST_CASE("a picture shows the chunks that are drawn, each level in its colour",
     return std::move(*image);
   };
   const Image rock = draw(pictured(world, coarse));
-  // A ball of 30 m, 65 m away, in the colour of the coarsest level: its red is largest, its blue smallest.
+  // The picture shows a ball of 30 m, 65 m away, in the colour of the coarsest level: red is largest, blue is smallest.
   const std::array<int, 3> middle = pixelAt(rock, 80, 60);
   CHECK(middle[0] > middle[1]);
   CHECK(middle[1] > middle[2] + 20);
@@ -94,7 +94,7 @@ TEST_CASE("a picture shows the chunks that are drawn, each level in its colour",
   CHECK(blue[2] > blue[1]);
   CHECK(blue[1] > blue[0]);
 
-  // The ball in its own material, seen from the other side.
+  // Shows the ball in its own material, from the other side.
   request.levels = false;
   request.camera.position = {4, -3, -70};
   request.camera.direction = {0, 0, 1};

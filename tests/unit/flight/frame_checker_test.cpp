@@ -25,7 +25,7 @@ void drawAll(FrameChecker& checker, MeshedWorld& world, const Drawing& drawing) 
   for (const auto& [key, parts] : drawing) REQUIRE(checker.draw(world.view(key), parts));
 }
 
-/// Checks that the running counts equal those of a complete check.
+/// Checks that the incremental counts equal those of a complete check.
 WholeReport agreed(const FrameChecker& checker) {
   const WholeReport whole = checker.checkWhole();
   INFO(describe(whole.mesh));
@@ -52,7 +52,7 @@ TEST_CASE("what an octree draws is closed, and stays so as octrees follow each o
       std::mt19937 random(seed);
       const Drawing next = drawingOf(randomTree(random));
       world.want(next);
-      // Chunks are changed one by one in random order; the surface need not be closed until the last.
+      // Chunks are changed one by one in random order; the surface need not be closed before the last change.
       std::vector<ChunkKey> changes;
       for (const auto& [key, parts] : drawn)
         if (next.count(key) == 0) changes.push_back(key);
@@ -151,7 +151,7 @@ TEST_CASE("a chunk that is drawn inside another one is seen, whichever came firs
     agreed(checker);
     const auto& [leaf, parts] =
         *std::find_if(drawing.begin(), drawing.end(), [&](const auto& drawn) { return holds(node, drawn.first); });
-    // Drawn once more, now below the coarser node that was drawn after it.
+    // Draws the leaf again, below the coarser node that was drawn after it.
     REQUIRE(checker.draw(world.view(leaf), parts));
     CHECK(checker.check().overlaps == inside);
     REQUIRE(checker.erase(publicKey(node)));
@@ -187,8 +187,8 @@ TEST_CASE("wrong blocks around a chunk are seen, as open edges") {
 }
 
 TEST_CASE("wrong blocks that join two surfaces in a point are seen in that vertex") {
-  // A pebble around the common corner of eight chunks, visible only at the finest level; two diagonally opposite chunks
-  // are of that level, and each closes its eighth of the pebble by itself.
+  // A pebble around the common corner of eight chunks, visible only at level 0. Two diagonally opposite chunks have
+  // this level, and each closes its own eighth of the pebble.
   MeshedWorld world(
       "sgm 1;\nunits m;\ndomain finite box(120m, 120m, 120m) empty;\nstart Pebble;\n"
       "rule Pebble { detail 0.3m { sphere(1m); } }\n");
@@ -202,8 +202,8 @@ TEST_CASE("wrong blocks that join two surfaces in a point are seen in that verte
   drawAll(checker, world, drawing);
   CHECK(checker.checkWhole().closed());
   CHECK(checker.check().triangles > 100);
-  // The flags claim that the chunks across the lower edges are fine and the one across the corner is not: then the
-  // vertex in the corner gets the key of another vertex.
+  // The flags claim that the chunks across the lower edges are fine, and that the chunk across the corner is coarse:
+  // then the vertex in the corner gets the key of another vertex.
   DrawnParts wrong = drawing.at(upper);
   wrong.coarser &= ~(neighbourBit(0, -1, -1) | neighbourBit(-1, 0, -1) | neighbourBit(-1, -1, 0));
   wrong.coarser |= neighbourBit(-1, -1, -1);
@@ -234,7 +234,7 @@ TEST_CASE("keys follow from packed vertices and the blocks around") {
       if (face >= 0 && (request.seams >> face & 1) == 0) continue;
       const sgm_mesh_range& range = face < 0 ? view.body : view.seams[face];
       const MeshPart& part = face < 0 ? chunks[i].mesh.body : chunks[i].mesh.seams[static_cast<size_t>(face)];
-      // This seam's mesh belongs to another set of neighbours.
+      // Skips a seam that was meshed for a different set of coarser neighbours.
       if (request.outermost && part.keys.size() != range.vertex_count) continue;
       REQUIRE(part.keys.size() == range.vertex_count);
       cli::SeamOf seam;
@@ -287,7 +287,7 @@ TEST_CASE("a mesh that is not well formed is refused, and changes nothing") {
   CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = SGM_VERTEX_COARSER; }));
   CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = 3; }));
   CHECK(refused([](auto&, auto& v, auto&) { v[0].x = -1; }));
-  // Feature vertices that a body may not have: of the next level, and of a cell outside the chunk.
+  // Feature vertices that a body must not have: one of the next coarser level, and one of a cell outside the chunk.
   CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = SGM_VERTEX_FEATURE | 1 << 13 | 0x15; }));
   CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = SGM_VERTEX_FEATURE | 1 << 14 | 0x15, v[0].x = -200; }));
   CHECK(refused([](auto& m, auto&, auto& i) { i[0] = m.body.vertex_count; }));
@@ -339,8 +339,7 @@ TEST_CASE("triangles with two corners in one place, flat, folded and cutting one
   REQUIRE(checker.draw(other, {}));
   const FrameReport plain = checker.check();
   CHECK(plain.degenerate_triangles + plain.flat_triangles + plain.folded_triangles + plain.self_intersections == 0);
-  // A triangle of feature vertices, which may lie anywhere around their cell, and another one that shares an edge with
-  // it.
+  // Two triangles of feature vertices, which may lie anywhere around their cell; the triangles share an edge.
   const auto corner = [](int x, int y, int z, uint16_t fan) {
     sgm_vertex v{};
     v.x = static_cast<int16_t>(2048 + x), v.y = static_cast<int16_t>(2048 + y), v.z = static_cast<int16_t>(2048 + z);
@@ -350,7 +349,7 @@ TEST_CASE("triangles with two corners in one place, flat, folded and cutting one
   const auto with = [&](std::array<sgm_vertex, 6> more) {
     std::vector<sgm_vertex> vertices(view.vertices, view.vertices + view.vertex_count);
     std::vector<uint32_t> indices(view.indices, view.indices + view.body.index_count);
-    // Appended after the body's vertices; those of the seams are removed.
+    // Appends the vertices after the body's vertices, in place of those of the seams.
     vertices.resize(view.body.first_vertex + view.body.vertex_count);
     for (const sgm_vertex& v : more) {
       indices.push_back(static_cast<uint32_t>(vertices.size()));

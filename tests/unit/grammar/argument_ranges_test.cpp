@@ -93,7 +93,7 @@ TEST_CASE("what comes through other rules is told where it leaves the range", "[
 TEST_CASE("what nothing derives is held to what is certain", "[grammar][ranges]") {
   const auto found = compileText("sgm 1;\n" + kHall + "rule A { sphere(1m); }\nrule B { Hall(0m); } start A;");
   CHECK(brief(found.diagnostics).find("4:15 argument-range") != std::string::npos);
-  // A library has no start; its rules are checked without callers.
+  // A library has no start, so its rules are checked without callers: only certain violations are errors.
   const CheckResult library =
       checkFile("sgm 1;\n" + kHall + "rule B(s) { Hall(0m); Hall(s); Hall(rand(0m, 2m)); }", "test.sgm", {});
   CHECK(brief(library.compiled.diagnostics) == "3:18 argument-range; 3:37 argument-range");
@@ -109,23 +109,24 @@ TEST_CASE("what has no known bound is not judged", "[grammar][ranges]") {
 TEST_CASE("sizes of parts of scopes are known from above alone", "[grammar][ranges]") {
   const std::string head = kHall + "rule B { Hall(0.5*scope.x); }\nrule A { ";
   const std::string tail = "; } start A; domain finite box(40m);";
-  // A part that fits is 10 m to 20 m long, but the analysis of splits only knows that it is at most as long as the
-  // scope.
+  // The parts that fit are 10 m to 20 m long, but the analysis of splits only knows that they are at most as long as
+  // the scope.
   CHECK(rangeWords(head + "split x { { ~10m: B; }* }" + tail).find("argument-range") == std::string::npos);
   CHECK(rangeWords(head + "cut treemap { hall 3: B; room 2: { } }" + tail).find("argument-range") == std::string::npos);
   CHECK(rangeWords(head + "wfc 10m { floor 1: B; }" + tail).find("argument-range") == std::string::npos);
-  // Values that are out of range for every size of the scope are reported, and so are those that do not depend on it.
+  // Values that are out of range for every size of the scope are reported, and so are values that do not depend on this
+  // size.
   CHECK(rangeWords(kHall + "rule B { Hall(-1m - scope.x); }\nrule A { split x { { ~10m: B; }* }" + tail)
             .starts_with("3:15 argument-range: `Hall` is given `r` = -"));
   CHECK(rangeWords(kHall + "rule A { split x { { ~10m: Hall(rand(0.5m, 2m)); }* }" + tail)
             .find("3:33 warning argument-range: `Hall` may be given `r` = 0.5m..2m, not all") != std::string::npos);
-  // A known size of the scope is used for the check.
+  // A size of the scope that is known is used for the check.
   CHECK(rangeWords(kHall + "rule B { Hall(0.5*scope.x); }\nrule A { split x { 1m: B; ~5m: { } }" + tail)
             .starts_with("3:15 argument-range: `Hall` is given `r` = 0.5"));
 }
 
 TEST_CASE("what a rule gives itself is its own affair", "[grammar][ranges]") {
-  // Recursion with decreasing sizes, ended by a condition, a depth, or a minimum size.
+  // Recursive rules with decreasing sizes, which a condition, a depth or a minimum size ends: no violations.
   CHECK(rangeWords("rule Tree(h in 1m..20m) minsize 0.2m -> Leaf { cylinder(0.1*h, h); at(y h) Tree(0.6*h); }\n"
                    "rule Leaf { sphere(0.1m); }\nrule A { Tree(4m); } start A;")
             .empty());
@@ -153,7 +154,7 @@ TEST_CASE("lets and fields have ranges, too", "[grammar][ranges]") {
             .starts_with("2:71 warning argument-range: `rough` may be given `amp` = 1m..2m, not all of which"));
   CHECK(rangeWords("let twice(n in 1..8) = 2*n;\nrule A { for i in 0..3 { sphere(1m*twice(i)); } } start A;")
             .starts_with("3:42 warning argument-range: `twice` may be given `n` = 0..2, not all of which"));
-  // A value that varies from point to point has no known bounds.
+  // The value of a field varies from point to point, so it has no known bounds.
   CHECK(rangeWords("field shaded(t in 0..1) = t;\nrule A { morph(sphere(1m), box(1m), shaded(q.y/1m)); } start A;")
             .empty());
 }
@@ -178,7 +179,7 @@ TEST_CASE("values are written in the unit of the range", "[grammar][ranges]") {
   CHECK(given("1cm..2km", "0.5*10km") == "5000m");
   CHECK(given("1m..2m", "2.0000001m") == "2.0000001m");
   CHECK(given("1m..2m", "123456.78m") == "123457m");
-  // A fourth power of metres has no unit in messages.
+  // A fourth power of metres has no unit name in messages.
   CHECK(given("1m*1m*1m*1m..2m*1m*1m*1m", "3m*1m*1m*1m") == "3");
 }
 
@@ -258,7 +259,7 @@ TEST_CASE("the caller of an import is told, and the caller of the library for wh
   files.files["caves.sgm"] = "sgm 1;\n" + kHall + "rule Two(r) { Hall(0.5*r); }\n";
   CHECK(rangeWords("import \"caves.sgm\" as caves;\nrule A { caves.Hall(0m); } start A;", &files)
             .starts_with("3:21 argument-range: `caves.Hall` is given `r` = 0m, which"));
-  // In a file of the user's own, the error is reported at its place.
+  // In an imported file that is not of the standard library, the error is reported at its own place.
   const CompileResult inner =
       compileText("sgm 1;\nimport \"caves.sgm\" as caves;\nrule A { caves.Two(1m); } start A;", &files);
   REQUIRE(inner.diagnostics.size() == 1);
@@ -271,7 +272,7 @@ TEST_CASE("the caller of an import is told, and the caller of the library for wh
         "to 60m");
   CHECK(rangeWords(karst + "karst.Canyon((0m, 0m, 0m), (70m, -4m, 20m), 2m, deep 900m); } start A;")
             .starts_with("3:63 argument-range: `karst.Canyon` is given `deep` = 900m, which is not within 0.5m..200m"));
-  // The standard library's facade rules with sizes of the scope that are too small.
+  // Rules of the standard library's facade module, with scopes that are too small for them.
   const std::string facade = "import \"std/facade.sgm\" as facade;\nrule A { ";
   CHECK(rangeWords(facade + "size(0.05m, 4m, 0m) facade.Shop; } start A;") ==
         "3:30 argument-range: `facade.Shop` gives `Frame` `w` = 0m here, which is not within 0.1m..20m | give it other "
@@ -320,7 +321,7 @@ TEST_CASE("an axis is a letter, whatever numbers have its name", "[grammar][rang
   CHECK(rangeWords("rule A { Bar(2m, 1m, 30deg); } start A;\n"
                    "rule Bar(x, y, z) { at(y 1m) rot(x, z) mirror(y) at(x, y, 0m) box(x, y, 1m); }")
             .empty());
-  // A vector named x is used as the axis.
+  // A vector named x takes precedence over the axis x.
   CHECK(rangeWords("rule A { let x = (0m, 1m, 0m); rot(x, 30deg) box(1m); } start A;").empty());
   const CompileResult turned = compileText("sgm 1; start A; rule A { let x = (0m, 1m, 0m); rot(x, 30deg) box(1m); }");
   REQUIRE(turned.program);

@@ -75,7 +75,7 @@ TEST_CASE("what an asset's file has beside its triangles is a warning at the imp
   std::string& bay = files.files["bay.glb"];
   bay += "behind";
   const std::string end = std::to_string(bay.size() - 6);
-  // The contents of a file decide its format (here OBJ in a .glb), and a warning at the import reports that.
+  // The contents of a file decide its format, here OBJ in a .glb file; a warning at the import reports that.
   files.files["cube.glb"] =
       "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\n"
       "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nl 1 2\n";

@@ -17,7 +17,7 @@ std::string repeated(std::string_view text, int times) {
   return out;
 }
 
-/// Measured in processor time, since the machine may be busy.
+/// Returns processor time, because the machine may be busy.
 double secondsSince(std::clock_t begin) { return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC; }
 
 bool mentions(const CompileResult& result, std::string_view code) {
@@ -61,7 +61,7 @@ TEST_CASE("many overrides of one rule cost what they are", "[grammar][caps]") {
   const std::string head =
       "sgm 1; domain infinite; layer a cell 8m reach 8m { start A; }\nrule A { B; }\nrule B { tag \"b\"; sphere(1m); "
       "}\n";
-  // Overrides of different cells never nest, so that each shape is moved by at most one of them.
+  // Overrides of different cells never nest, so at most one of them moves each shape.
   const CompileResult apart = compileText(head + cells);
   INFO(renderDiagnostics(apart));
   CHECK(apart.program);
@@ -138,7 +138,7 @@ std::string treeOfRules(int count) {
   return text;
 }
 
-/// Measured in processor time, not wall time, since other programs may be running.
+/// Returns processor time and not wall time, because other programs may be running.
 double secondsToCompile(const std::string& text) {
   double best = 1e9;
   for (int round = 0; round < 3; ++round) {
@@ -156,7 +156,7 @@ double secondsToCompile(const std::string& text) {
 TEST_CASE("compiling takes no longer than in step with the text", "[grammar][performance]") {
   const double of_one = secondsToCompile(treeOfRules(100)), of_four = secondsToCompile(treeOfRules(400));
   INFO(of_one << " s for 800 lines, " << of_four << " s for 3,200");
-  CHECK(of_four < 10 * of_one);  // if the cost grew with the square of the length, it would be 16 times as high
+  CHECK(of_four < 10 * of_one);  // a quadratic cost would be 16 times as high
 }
 
 TEST_CASE("lets within lets and rules within rules stay on a small stack", "[grammar][caps]") {

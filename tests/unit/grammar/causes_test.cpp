@@ -82,7 +82,7 @@ TEST_CASE("what may be 0 or has no range is named, and the hint helps", "[gramma
   const std::string length = "start A;\nrule A { B(rand(-1m, 1m)); }\nrule B(w) { sphere(1m*(1m/w)); }";
   CHECK(grammar(mended(length, "/w", "/" + between(grammar(length).diagnostics[0].hint, '`'))).program);
 
-  // If a unit is missing, the hint explains how to add it.
+  // If a unit is missing from a value, the hint explains how to add it.
   CHECK(told("start A;\nrule A { B(rand(-1m, 1m)); }\nrule B(w) { sphere(1m2*1m2*1m/(w*w*w*w)); }") ==
         "4:32 reach: cannot prove reach: `sphere` may extend without bound: `w*w*w*w`, the divisor, may be 0 | keep it "
         "away from 0: a parameter's range, or max()");
@@ -96,7 +96,7 @@ TEST_CASE("what may be 0 or has no range is named, and the hint helps", "[gramma
         "4:10 reach: cannot prove reach: `sphere` may extend without bound: the parameter `a` has no range | give it "
         "one: `param a = -3m in LOW..HIGH`");
 
-  // A quotient may occur anywhere: in a position, a scale, a copy's step, an amplitude, or a blend.
+  // A quotient may be part of any value: a position, a scale, a copy's step, an amplitude, or a blend.
   for (const char* rule :
        {"rule A { at(y 2m/(n - 1)) sphere(1m); }", "rule A { at(2m/(n - 1), 0m, 0m) { sphere(1m); } }",
         "rule A { let gap = 2m/(n - 1); at(gap, 0m, 0m) sphere(1m); }", "rule A { scale(1/(n - 1)) sphere(1m); }",
@@ -111,7 +111,7 @@ TEST_CASE("what may be 0 or has no range is named, and the hint helps", "[gramma
     CHECK(placed.diagnostics[0].hint == "keep it away from 0: `max(n - 1, 0.1)`");
   }
 
-  // For an error in a library's rule, the calling line is reported.
+  // For an error in a library's rule, the message names the line of the call.
   const CompileResult cloudy = grammar("start A;\nrule A { cloud.Cumulus(rand(0m, 500m)); }");
   CHECK(
       inWords(cloudy) ==
@@ -145,7 +145,7 @@ TEST_CASE("all shapes that pass the reach are told at once, and one declaration 
   CHECK(wide.diagnostics[0].hint == "raise cell to 25 m and reach to 100 m, or make the shape smaller");
   CHECK(grammar(layer(25, 100) + far).program);
 
-  // A shape whose place grows with the cell never fits, whatever the cell size.
+  // A shape whose position grows with the cell size fits no cell, so the hint suggests a smaller shape.
   const CompileResult endless = grammar(layer(8, 4) + "rule A { at(9*cell.size) sphere(1m); }");
   REQUIRE(endless.diagnostics.size() == 1);
   CHECK(endless.diagnostics[0].hint == "make the shape smaller");
@@ -187,7 +187,7 @@ TEST_CASE("a value that is used twice is the same both times", "[grammar][reach]
 }
 
 TEST_CASE("what is proven in pieces holds for every value", "[grammar][reach]") {
-  // Random expressions of one value, in both numerator and denominator of a quotient: compares the bound with the
+  // Random quotients of one value, which occurs in both numerator and denominator: compares the proven bound with the
   // actual values.
   uint64_t state = 7;
   const auto draw = [&](uint64_t below) {

@@ -51,8 +51,8 @@ class FolderResolver : public ImportResolver {
   std::filesystem::path folder_;
 };
 
-/// All diagnostics in short form, "3:17 unit-mismatch; 4:1 syntax". Unless `unused`, omits those about unused names,
-/// which occur in programs that share a common beginning.
+/// All diagnostics in short form, such as "3:17 unit-mismatch; 4:1 syntax". Unless `unused`, omits diagnostics about
+/// unused names, which are frequent in texts with a common beginning.
 inline std::string brief(const std::vector<Diagnostic>& diagnostics, bool unused = false) {
   std::string out;
   for (const Diagnostic& d : diagnostics) {

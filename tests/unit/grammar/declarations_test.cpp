@@ -1,4 +1,5 @@
-// Tests the information for editors about names and words: it must agree with the compiler, also in unfinished texts.
+// Tests the information about names and words that editors show: it must agree with the compiler, also in unfinished
+// texts.
 
 #include <filesystem>
 #include <fstream>
@@ -31,7 +32,7 @@ std::vector<std::pair<std::string, std::filesystem::path>> sampleTexts() {
   return texts;
 }
 
-/// The kinds that a resolved name may be declared as; nullopt for built-in names.
+/// The kinds of declaration to which a resolved name may refer; nullopt for built-in names.
 std::optional<std::vector<NameKind>> kindsOf(Ref ref) {
   using Kinds = std::vector<NameKind>;
   switch (ref) {
@@ -75,7 +76,7 @@ TEST_CASE("names of the samples are declared where the compiler finds them", "[g
       if (!kinds || n.span.file != 0 || n.qualifier != kNoId || n.name == kNoId) continue;
       const auto word = wordAt(text, n.span.begin);
       REQUIRE(word);
-      // The name of a method follows the value that it is called on.
+      // The name of a method comes after the value on which it is called.
       if (word->word != compiled.program->text(n.name)) continue;
       INFO(text.substr(n.span.begin, n.span.end - n.span.begin) << " in line " << n.span.line);
       const auto found = declarations.find(word->word, n.span.begin);

@@ -14,11 +14,11 @@ using namespace sgm::test;
 namespace {
 
 struct Case {
-  const char* expected;  ///< in the form of brief()
+  const char* expected;  ///< expected diagnostics in the form of brief()
   const char* text;
 };
 
-// A layer of void in rock, and a layer that may query it.
+// A layer that cuts voids into rock, and a layer that may query it.
 #define SGM_NET                                                               \
   "sgm 1; domain infinite solid; layer net cell 32m reach 16m { start Net; }" \
   " layer drip cell 16m reach 8m uses net { start D; }\nrule Net { cut { at(cell.center) sphere(8m); } }\n"
@@ -31,7 +31,8 @@ const Case kCases[] = {
     // The text
     {"2:17 bad-character", "sgm 1; start A;\nrule A { sphere(#2m); }"},
     {"2:17 bad-character", "sgm 1; start A;\nrule A { sphere($); }"},
-    // Bytes that are no UTF-8: Latin-1, a sequence cut short, one too long, a surrogate. The place is the byte's.
+    // Bytes that are not UTF-8: Latin-1, a truncated sequence, an overlong one, a surrogate. The expected place is that
+    // of the byte.
     {"2:17 bad-character",
      "sgm 1; start A; // \xC3\xA9\nrule A { } // na\xEF"
      "ve caf\xE9\n"},
@@ -95,7 +96,7 @@ const Case kCases[] = {
     {"1:15 import-path", "sgm 1; import \"../a.sgm\" as a; start A; rule A { }"},
     {"1:15 import-missing", "sgm 1; import \"std/rokc.sgm\" as a; start A; rule A { }"},
     {"1:15 import-missing", "sgm 1; import \"a.sgm\" as a; start A; rule A { }"},
-    // Names and arguments
+    // Cases of names and arguments.
     {"2:10 unknown-name", "sgm 1; start A;\nrule A { shpere(2m); }"},
     {"2:17 unknown-name", "sgm 1; start A;\nrule A { sphere(radius); }"},
     {"1:14 unknown-name", "sgm 1; start B; rule A { }"},
@@ -117,7 +118,7 @@ const Case kCases[] = {
     {"2:53 guards",
      "sgm 1; param n = 3 in 0..9; start A(n);\nrule A(n) when n > 5 { sphere(1m); } rule A(m) when m > 6 { box(1m); }"},
     {"2:6 unused-rule", "sgm 1; start A; rule A { }\nrule B { }"},
-    // Types and stages
+    // Cases of types and evaluation stages.
     {"2:17 unit-mismatch", "sgm 1; start A;\nrule A { sphere(5); }"},
     {"2:17 type-mismatch", "sgm 1; start A;\nrule A { sphere((1m, 2m, 3m)); }"},
     {"2:13 stage", "sgm 1; start A; field f = p.y;\nrule A when f > 0m { } rule A else { }"},
@@ -163,7 +164,7 @@ const Case kCases[] = {
      "{ sphere(1m); } }"},
     {"2:19 type-mismatch", "sgm 1; start A;\nrule A { for s in 3m { sphere(1m); } }"},
     {"1:16 wrong-use", "sgm 1; let a = branch(3, step 2m, turn 9deg); start A; rule A { for s in a { sphere(1m); } }"},
-    // Footprints and roofs
+    // Cases of footprints and roofs.
     {"1:44 syntax", "sgm 1; start A; rule A { footprint merge 2 box(1m, 1m) as plan; }"},
     {"1:49 syntax", "sgm 1; start A; rule A { footprint rect(1m, 1m) p; }"},
     {"2:26 value-range", "sgm 1; start A;\nrule A { footprint merge 65 rect(1m, 1m) as plan; extrude 1m of plan; }"},
@@ -212,7 +213,7 @@ const Case kCases[] = {
      "sgm 1; domain infinite; layer a cell 8m reach 4m { start B; } layer b cell 8m reach 8m uses a { start A; }\n"
      "rule B { sphere(1m); }\n"
      "rule A { scatter poisson(1m) probe up 2m of a gap h within 2m when h > 1 { sphere(1m); } }"},
-    // Cellular automata: they need cells, stand where these stand, and have limits.
+    // Cellular automata need grammar cells, must not be moved, rotated, scaled or scattered, and have limits.
     {"1:26 wrong-use", "sgm 1; start A; rule A { ca(1m); }"},
     {"1:49 wrong-use", "sgm 1; domain finite box(9m); start A; rule A { ca(1m); }"},
     {"2:25 wrong-use", SGM_LAYER "rule A { at(1m, 0m, 0m) ca(1m); }"},
@@ -321,7 +322,7 @@ TEST_CASE("every diagnostic stands where the fault is", "[grammar][diagnostics]"
 
 namespace {
 
-/// Cases of the codes that only limits or other files cause.
+/// Cases of the codes that only lowered limits or other files can cause.
 std::vector<std::pair<std::string, CompileResult>> cappedCases() {
   std::vector<std::pair<std::string, CompileResult>> out;
   auto add = [&](std::string expected, std::string_view text, auto change) {

@@ -14,7 +14,7 @@ using namespace std::string_literals;
 
 constexpr std::string_view kText = "sgm 1;\nstart A;\nrule A { sphere(1m); } // of chalk\n";
 
-/// The text with characters of `width` bytes, in little-endian or big-endian order.
+/// Encodes text with `width` bytes for each character, in little-endian or big-endian order.
 std::string widened(std::string_view text, size_t width, bool little, std::string_view mark = {}) {
   std::string out(mark);
   for (const char c : text) {

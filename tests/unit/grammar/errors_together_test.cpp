@@ -1,5 +1,5 @@
-// Tests that one run reports all independent errors: everything that was parsed is checked, whatever else was not, and
-// no error is reported that only follows from another.
+// Tests that one run reports all independent errors: every part that was parsed is checked, and an error that only
+// follows from another error is not reported.
 
 #include "grammar/check_file.h"
 #include "grammar/std/std_library.h"
@@ -17,7 +17,7 @@ std::string places(const std::string& text, ImportResolver* files = nullptr) {
 }  // namespace
 
 TEST_CASE("errors of meaning are told beside errors of syntax", "[grammar][together]") {
-  // One error each in a statement, a rule's head, a declaration, and the text itself.
+  // One text has an error each in a statement, a rule's head, a declaration, and the characters.
   CHECK(places("sgm 1; start A;\nrule A { sphere(1); at(1m 0m, 0m) box(1m); }\nrule B { bxo(1m); }") ==
         "2:17 unit-mismatch; 2:27 syntax; 3:10 unknown-name");
   CHECK(places("sgm 1; start A;\nrule A { sphere(1); B; }\nrule B weight { box(1m); }") ==
@@ -33,7 +33,7 @@ TEST_CASE("errors of meaning are told beside errors of syntax", "[grammar][toget
 
 TEST_CASE("what is missing makes no errors of its own", "[grammar][together]") {
   const char* texts[] = {
-      // A let, a field, a rule, an import, a parameter, a layer, a start and a domain, each with a syntax error.
+      // Texts in which a let, a field, a rule, an import, a parameter, a layer, a start or a domain has a syntax error.
       "sgm 1; start A;\nlet a = 2m *;\nrule A { sphere(a); }",
       "sgm 1; start A;\nfield f = 1m*;\nrule A { displace f { sphere(1m); } }",
       "sgm 1; start A;\nrule B(r { sphere(r); }\nrule A { B(1m); }",
@@ -45,7 +45,8 @@ TEST_CASE("what is missing makes no errors of its own", "[grammar][together]") {
       "start D; }\nrule A { sphere(1m); } rule D { scatter poisson(1m) probe up 1m of net { sphere(1m); } }",
       "sgm 1;\nstart A\nrule A { sphere(1m); }",
       "sgm 1;\ndomain infinit; layer a cell 8m reach 4m { start A; }\nrule A { sphere(1m); }",
-      // Parts that could not be parsed: names and bounds that they would have defined cause no further errors.
+      // Texts with parts that could not be parsed: the names and bounds that these would have defined cause no further
+      // errors.
       "sgm 1; start A;\nrule A { meet { box(1m; halfspace(below 0m); } }",
       "sgm 1; start A;\nrule A { let r = 1m +; sphere(r); }",
       "sgm 1; start A;\nrule A { footprint rect(1m 2m) as plan; extrude 2m of plan; }",
@@ -86,11 +87,11 @@ TEST_CASE("a file for others to import is checked by itself", "[grammar][library
   CHECK(good.compiled.diagnostics.empty());
   CHECK(good.library);
   REQUIRE(good.compiled.program);
-  // Errors in a library are found without a caller.
+  // Errors in a library's rules are found although nothing calls these.
   CHECK(checked("rule Beam { bxo(1m); sphere(1); }") == "4:13 unknown-name; 4:29 unit-mismatch");
   CHECK(checked("rule Tree(r) { Tree(r); }") == "4:16 unbounded-recursion");
-  // A statement that only the root file may contain makes the file a root, which needs a start; so does compiling it
-  // for derivation.
+  // A declaration that only the root file may contain makes the file a root, which needs a start. Compiling for
+  // derivation needs a start, too.
   CHECK(checked("param a = 1m;") == "1:1 no-start");
   CHECK(checked("domain infinite;") == "1:1 no-start");
   CHECK(brief(compileGrammar(library, "lib.sgm", options).diagnostics) == "1:1 no-start");

@@ -1,4 +1,4 @@
-// Tests messages about words that other languages use: they must suggest what to write, not the nearest spelling.
+// Tests messages about words of other languages: they must suggest the right words, and not the nearest spelling.
 
 #include <set>
 #include <string>
@@ -39,7 +39,8 @@ const MessageCase kForeignCases[] = {
      "rule A { at([1, 2, 3) box(1m); }"},
 };
 
-/// A word of another language, and what the hint suggests in backquotes; or the whole hint if it has none.
+/// A word of another language, and the text that the hint suggests in backquotes, or the whole hint if it suggests
+/// none.
 struct Word {
   const char *theirs, *ours;
 };

@@ -39,7 +39,7 @@ TEST_CASE("imports are relative to the file that names them, and loaded once", "
   INFO(renderDiagnostics(result));
   REQUIRE(result.program);
   CHECK(resolver.reads == 2);
-  CHECK(result.program->modules.size() == 5);  // root, a, b, std/rock, std/noise
+  CHECK(result.program->modules.size() == 5);  // the root, a, b, std/rock and std/noise
   CHECK(result.program->findRule("Stone") != kNoId);
 }
 

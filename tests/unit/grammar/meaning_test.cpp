@@ -1,4 +1,5 @@
-// The hash of a meaning against the printed meaning: equal text, equal hash, and the other way round.
+// Tests the hash of a program's meaning: two programs have equal hashes if and only if their printed meanings are
+// equal.
 
 #include <random>
 #include <unordered_map>
@@ -17,10 +18,11 @@ using namespace sgm::test;
 
 namespace {
 
-/// Texts that were compared with all others: the hash for each printed meaning, and the other way round.
+/// Checks for all texts that were passed to hear() that equal printed meanings have equal hashes, and that equal hashes
+/// have equal printed meanings.
 class Judge {
  public:
-  /// Returns false if the text has errors.
+  /// Adds a text to the comparison. Returns false if the text has errors.
   bool hear(const std::string& text) {
     const Parsed file = parsed(text);
     if (!file.program) return false;
@@ -44,7 +46,7 @@ class Judge {
   size_t heard_ = 0;
 };
 
-/// Changes one word or sign of a text, some so that the meaning stays.
+/// Changes one word or sign of a text; some changes keep the text's meaning.
 class Mutator {
  public:
   explicit Mutator(uint32_t seed) : random_(seed) {}
@@ -121,7 +123,7 @@ TEST_CASE("texts have equal hashes exactly if their printed meanings are equal",
   for (const std::string& text : grammarTexts()) {
     CHECK(judge.hear(text));
     ++whole;
-    // A long text takes longer.
+    // Long texts get fewer changes, because each takes longer.
     const unsigned often = rounds(text.size() < 4000 ? 120 : 24);
     for (unsigned i = 0; i < often; ++i, ++tried) {
       std::string other = mutator.changed(text);
@@ -130,13 +132,13 @@ TEST_CASE("texts have equal hashes exactly if their printed meanings are equal",
     }
   }
   CAPTURE(tried, judge.heard(), judge.meanings());
-  CHECK(judge.heard() > whole + tried / 4);       // many changes are programs
-  CHECK(judge.meanings() > judge.heard() / 4);    // many of them mean something else
-  CHECK(judge.heard() > judge.meanings() + 200);  // and many the same
+  CHECK(judge.heard() > whole + tried / 4);       // many changed texts are valid programs
+  CHECK(judge.meanings() > judge.heard() / 4);    // many changed texts have a new meaning
+  CHECK(judge.heard() > judge.meanings() + 200);  // many changed texts have the meaning of an earlier text
 }
 
 TEST_CASE("each member of a statement is a part of the meaning", "[grammar][identity]") {
-  // Variants of one statement: all differ, but for those behind "=", which mean the same as an earlier one.
+  // Variants of one statement with different meanings; a variant that begins with "=" means the same as an earlier one.
   const std::vector<std::vector<std::string>> statements = {
       {"A;", "=A();", "B;", "a.A;", "A(1);", "A(x 1);", "A(y 1);", "A(1, 1);", "A(1m);", "A(1deg);", "A(true);"},
       {"union A;", "cut A;", "meet A;", "union smooth 1m A;", "union smooth 2m A;", "union { A; }", "sum A;"},
@@ -314,7 +316,7 @@ TEST_CASE("each part of a declaration that changes what is derived is a part of 
 }
 
 TEST_CASE("a program has the hash of version 0.2 still", "[grammar][identity]") {
-  // As `sgm check --json` of 0.2 printed them.
+  // The expected hashes were printed by `sgm check --json` of version 0.2.
   MapResolver resolver;
   resolver.files["parts/a.sgm"] = "sgm 1;\nlet thick = 25cm;\nrule Wall(h in 1m..9m) { box(thick, h, 2m); }\n";
   const CompileResult small = compileText("sgm 1;\nstart A;\nrule A { sphere(1m); }\n");

@@ -1,5 +1,5 @@
 #pragma once
-// The compiler's diagnostics as text, for tests that compare every message word for word.
+// Converts the compiler's diagnostics to text, for tests that compare every message word for word.
 
 #include <span>
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace sgm::test {
 
-/// All diagnostics, one on each line: "3:17 unit-mismatch: message | hint | note: note"; warnings are marked as such.
+/// All diagnostics, one on each line: "3:17 unit-mismatch: message | hint | note: note"; warnings contain the word
+/// "warning".
 inline std::string inWords(const CompileResult& result) {
   std::string out;
   for (const Diagnostic& d : result.diagnostics) {
@@ -22,15 +23,15 @@ inline std::string inWords(const CompileResult& result) {
   return out;
 }
 
-/// Whether a message says what to write instead, by what the parser expected or by a hint.
+/// Whether a diagnostic says what to write instead: it has a hint, or names what the parser expected.
 inline bool saysWhatToWrite(const Diagnostic& d) { return !d.hint.empty() || d.message.starts_with("expected "); }
 
 struct MessageCase {
-  const char* expected;  ///< in the form of inWords()
+  const char* expected;  ///< expected diagnostics in the form of inWords()
   const char* text;
 };
 
-/// The text before and after the text of each case.
+/// Text that every case has before and after its own text.
 struct Around {
   std::string before, after;
 };

@@ -14,15 +14,15 @@
 namespace {
 
 struct Literal {
-  int line;  ///< line on which it starts
+  int line;  ///< line on which the literal starts
   std::string text;
 };
 
-/// The string literals in C++ source, adjacent ones joined. Names of included files are omitted.
+/// The string literals in C++ source, with adjacent literals joined. Omits the names of included files.
 std::vector<Literal> literalsOf(std::string_view source) {
   std::vector<Literal> out;
   int line = 1;
-  bool adjacent = false;  // only blanks separate it from the previous literal
+  bool adjacent = false;  // whether only blanks separate this literal from the previous one
   for (size_t i = 0; i < source.size(); ++i) {
     const std::string_view rest = source.substr(i);
     std::string text;
@@ -59,7 +59,7 @@ std::vector<Literal> literalsOf(std::string_view source) {
   return out;
 }
 
-/// Whether a text has two words, as messages do and words of the language do not.
+/// Whether a text contains at least two words, as messages do, unlike words of the language.
 bool readsLikeMessage(std::string_view text) {
   const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   for (size_t i = 1; i + 1 < text.size(); ++i)
@@ -83,7 +83,7 @@ std::vector<std::filesystem::path> filesIn(const std::string& folder, std::initi
   return out;
 }
 
-/// The literals in the source that read like messages, and do not occur in the tests.
+/// The literals in the source that read like messages, but do not occur in the tests.
 std::vector<Literal> untested(const std::string& source, const std::string& tests) {
   std::vector<Literal> out;
   for (Literal& literal : literalsOf(source)) {
@@ -106,7 +106,7 @@ TEST_CASE("every message stands word for word in a test", "[grammar][messages]")
   int sources = 0;
   for (const char* folder : {"runtime/grammar", "runtime/derive", "runtime/asset"})
     for (const auto& path : filesIn(folder, {".cpp", ".h"})) {
-      // word_help.cpp has descriptions of words, not messages.
+      // word_help.cpp is left out, because it has descriptions of words instead of messages.
       if (path.filename() == "word_help.cpp") continue;
       ++sources;
       for (const Literal& literal : untested(textOf(path), tests))

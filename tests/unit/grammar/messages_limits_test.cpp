@@ -13,7 +13,7 @@ std::string times(int count, const std::string& text) {
   return out;
 }
 
-/// The text repeated `count` times; # in it becomes the number of the repetition.
+/// Repeats the text `count` times; each # in it becomes the number of the repetition.
 std::string numbered(int count, const std::string& text) {
   std::string out;
   for (int i = 0; i < count; ++i)

@@ -292,7 +292,7 @@ const MessageCase kIdle[] = {
      "one exclude the other, or give both a `weight` if that is meant | note: the earlier one is at test.sgm:3:13",
      "rule A { size(3m, 3m, 3m) B; size(1m, 1m, 1m) B; }\n"
      "rule B when scope.x < 2m { sphere(1m); } rule B when scope.x > 150cm { box(1m); }"},
-    // The parameter is a whole number: no value lies between two whole numbers, so the guards cover everything.
+    // The parameter is a whole number, so the guards cover all of its values: there is none between 2 and 3.
     {"",
      "param n = 3 in 1..5; rule A { B(n); }\nrule B(k) when k < 3 { sphere(1m); } rule B(k) when k > 2 { box(1m); }"},
     {"",

@@ -1,5 +1,5 @@
 #pragma once
-// Texts that are parsed and not checked, so that names are as they were written.
+// Parses texts without checking them, so that names stay as they were written.
 
 #include <filesystem>
 #include <fstream>
@@ -20,7 +20,7 @@ struct Parsed {
   ModuleSyntax syntax;
 };
 
-/// Empty if the text has errors.
+/// Parses a text. The program is null if the text has errors.
 inline Parsed parsed(std::string_view text) {
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
   Parsed result;
@@ -35,7 +35,7 @@ inline Parsed parsed(std::string_view text) {
   return result;
 }
 
-/// The texts of all grammars of the tree that can be read, and of some random programs.
+/// The texts of all grammars in the repository that parse, and of some random programs.
 inline const std::vector<std::string>& grammarTexts() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> texts;

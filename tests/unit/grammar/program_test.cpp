@@ -69,7 +69,7 @@ TEST_CASE("a layer shows where cells are not larger than every detail around its
     REQUIRE(result.program);
     return result.program->layers[0];
   };
-  // One unit more than 256, since the interval arithmetic rounds outwards.
+  // 257 is one unit more than 25 cm, because the interval arithmetic rounds outwards.
   CHECK(contents("rule A { detail 25cm { sphere(1m); } }").coarsest_cell == 257);
   CHECK(contents("rule A { detail 25cm { B(); } } rule B { sphere(1m); }").coarsest_cell == 257);
   CHECK(contents("rule A { detail 25cm { B(); } B(); } rule B { sphere(1m); }").coarsest_cell == kEvery);
@@ -194,7 +194,7 @@ TEST_CASE("the hash is of the meaning, not of the layout", "[grammar][program]")
   const uint64_t hash = hashOf("sgm 1; start A; rule A { sphere(0.25m + 1m*2); }");
   CHECK(hash == hashOf("sgm 1;\n// a comment\nstart A;\n\nrule A {\n  sphere((25cm) + (1m*2));  // another\n}\n"));
   CHECK(hash != hashOf("sgm 1; start A; rule A { sphere((0.25m + 1m)*2); }"));
-  // The hash leaves out everything that the world does not depend on, such as `animated`, since edits are stored with
+  // The hash omits everything on which the world does not depend, such as `animated`, because edits are stored with
   // this hash.
   const uint64_t of_param = hashOf("sgm 1; param r = 1m in 1m..2m; start A; rule A { sphere(r); }");
   CHECK(of_param == hashOf("sgm 1; param r = 1m in 1m..2m animated; start A; rule A { sphere(r); }"));

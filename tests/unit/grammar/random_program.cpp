@@ -32,7 +32,7 @@ class Writer {
   uint64_t draw(uint64_t below) { return hashCombine(key_.value, ++count_) % below; }
   bool chance(uint64_t percent) { return draw(100) < percent; }
   const char* pick(std::initializer_list<const char*> list) { return list.begin()[draw(list.size())]; }
-  /// A range of a formal parameter, so wide that it contains all lengths.
+  /// The range of a formal parameter: none, or one so wide that it contains all lengths.
   std::string range() { return pick({"", " in -900km..900km", " in -(900km)..2 *  450km"}); }
   void comment() { out_ += std::string("// note ") + std::to_string(draw(100)) + (chance(30) ? "  \n\n\n" : "\n"); }
   void blank() {

@@ -1,12 +1,12 @@
 #pragma once
-// Programs with valid syntax, and often with valid meaning, for tests and as seeds for fuzzing.
+// Makes random programs with valid syntax, and often with valid meaning, for tests and as seeds for fuzzing.
 
 #include <cstdint>
 #include <string>
 
 namespace sgm::test {
 
-/// The same seed gives the same text.
+/// Makes a random program: the same seed gives the same text.
 std::string randomProgram(uint64_t seed);
 
 }  // namespace sgm::test

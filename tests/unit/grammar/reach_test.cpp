@@ -121,14 +121,14 @@ TEST_CASE("what is no distance grows faster when it is displaced", "[grammar][re
   checkBound("B(10m);", {-15, -11, -15}, {15, 11, 15},
              "rule B(r) { displace 3m*fractal(9m) { ellipsoid(r, 0.6*r, r); } }");
   CHECK(boundOf("displace 1m*fractal(3m) { ellipsoid(rand(0m, 4m), 2m, 2m); }").brief == "4:19 reach");
-  // Far from its leaves, the gradient of a sum's field is 0.26 of the largest.
+  // Far from the leaves of a sum, the gradient of the sum's field is only 0.26 of its maximum.
   checkBound("displace 0.5m*fractal(3m) { sum { blob(2m); } }", {-3.2, -3.2, -3.2}, {3.2, 3.2, 3.2});
   const Bound bound = boundOf("displace 0.6m*fractal(3m) { sum { blob(2m); } }");
   CHECK(bound.brief == "4:19 reach");
-  // The value in the hint is indeed accepted.
+  // The amplitude that the hint suggests is accepted.
   CHECK(boundOf("displace 0.5099m*fractal(3m) { sum { blob(2m); } }").proven);
   CHECK(bound.messages.find("than 0.51 m") != std::string::npos);
-  // The bound uses the largest leaf, if that is always present.
+  // The bound uses the largest leaf if this leaf is always present.
   CHECK(boundOf("displace 0.5m*fractal(3m) { sum { blob(2m); blob(0.1m); } }").proven);
   CHECK(boundOf("displace 0.5m*fractal(3m) { sum { blob(0.1m); scatter 3 on disc(1m) when chance(50%) blob(2m); } }")
             .brief == "4:19 reach");

@@ -1,4 +1,4 @@
-// stmts.def against the parser, the published grammar and the colours of the editor.
+// Tests stmts.def against the parser, the published grammar and the editor's syntax colours.
 
 #include <map>
 #include <regex>
@@ -23,7 +23,7 @@ std::string textOf(const char* path) {
   return text.str();
 }
 
-/// The members that a line of stmts.def lists.
+/// For each member of a statement, whether the statement's line in stmts.def lists it.
 struct Listed {
   bool power = false, expr = false, amount = false, plan = false, body = false, extra = false, extra2 = false;
   bool name = false, name2 = false, children = false, xforms = false, parts = false;
@@ -49,7 +49,7 @@ Listed listedOf(StmtKind kind) {
   return listed;
 }
 
-/// Visits everything that the text of a file gives.
+/// Visits all statements and expressions of a parsed file, and counts the visits of each.
 class Walk {
  public:
   explicit Walk(const Parsed& file)
@@ -76,7 +76,7 @@ class Walk {
   std::vector<int> stmts_, exprs_;
 };
 
-/// The words and signs with which the productions of the published grammar can begin.
+/// The words and signs with which each production of the published grammar can begin.
 class FirstWords {
  public:
   FirstWords() {
@@ -103,7 +103,8 @@ class FirstWords {
  private:
   using Tokens = std::vector<std::string>;
 
-  // Each adds its first words and returns whether it can be empty; without words it only finds its end.
+  // Each of these functions parses one part of a production, adds the part's first words, and returns whether the part
+  // can be empty. If words is null, it only finds the part's end.
   bool alternatives(const Tokens& tokens, size_t& at, Words* words) const {
     bool empty = sequence(tokens, at, words);
     while (tokens[at] == "|") empty = sequence(tokens, ++at, words) || empty;
@@ -166,7 +167,7 @@ TEST_CASE("a statement sets the members that stmts.def lists, and no others", "[
       see(s.parts.count > 0, listed.parts, here.parts);
     }
   }
-  // The grammars of the tree have every statement, so that the above says something.
+  // The repository's grammars use every statement, so that the checks above cover all of them.
   for (size_t kind = 0; kind < kStmtInfos.size(); ++kind) {
     CAPTURE(kind, kStmtInfos[kind].word);
     CHECK(set.count(static_cast<StmtKind>(kind)) == 1);
@@ -190,7 +191,7 @@ TEST_CASE("walks from the declarations reach every statement once, and every exp
     const Walk walk(file);
     CHECK(std::all_of(walk.stmts().begin(), walk.stmts().end(), [](int times) { return times == 1; }));
     for (ExprId id = 0; id < walk.exprs().size(); ++id) {
-      // A call takes the place of the name or member that it was read as.
+      // The parser replaces a name or a member by a call when it reads arguments; the replaced node is not visited.
       const ExprNode& e = file.program->expr(id);
       const bool may_be_replaced = e.kind == ExprKind::name || e.kind == ExprKind::member;
       CAPTURE(text.substr(e.span.begin, e.span.end - e.span.begin), walk.exprs()[id]);

@@ -8,7 +8,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// The diagnostics of a rule in which a value is assigned to a variable and used as an argument.
+/// The diagnostics, in the form of brief(), of a grammar whose start rule A has this body.
 std::string brokenUnits(const std::string& use) {
   return brief(
       compileText(
@@ -116,7 +116,7 @@ TEST_CASE("stages are kept apart", "[grammar][units]") {
 }
 
 TEST_CASE("what a rule that nothing calls makes of its parameters fits every dimension", "[grammar][units]") {
-  // Rules of a library that the grammar does not call look like this.
+  // A rule that nothing calls (here Spare) is checked like the uncalled rules of an imported library.
   for (const char* statement : {"ellipsoid((r, 0.35*r, r*(1 - 0.2)));", "at((r, r, 2*r) + (r, 0, 0)) sphere(1m);",
                                 "at(-(r, r, r)) box((r, r, r));", "superq((r, r, r), r);"}) {
     INFO(statement);
@@ -125,6 +125,6 @@ TEST_CASE("what a rule that nothing calls makes of its parameters fits every dim
     CHECK(result.program != nullptr);
     CHECK(brief(result.diagnostics).find("mismatch") == std::string::npos);
   }
-  // The known dimension of a component (the literal 2) is still checked.
+  // The known dimension of a component, here of the literal 2, is still checked.
   CHECK(!compileText("sgm 1; start A; rule A { sphere(1m); } rule Spare(r) { ellipsoid((r, 2, r)); }").program);
 }

@@ -48,8 +48,8 @@ class Client {
     return true;
   }
 
-  /// The next answer; nullopt if the connection ended instead, or after ten seconds. without_body: the answer to a HEAD
-  /// request.
+  /// Receives the next answer; nullopt if the connection ended instead, or after ten seconds. without_body: the answer
+  /// to a HEAD request is expected.
   std::optional<Answer> hear(bool without_body = false) {
     size_t end = 0;
     while ((end = heard_.find("\r\n\r\n")) == std::string::npos)
@@ -79,7 +79,7 @@ class Client {
     return hear();
   }
 
-  /// Whether the server closes the connection within that time, without sending more.
+  /// Whether the server closes the connection within this time, without sending more.
   bool ended(std::chrono::milliseconds within = std::chrono::seconds(10)) {
     return heard_.empty() && !more(within) && at_end_;
   }

@@ -3,10 +3,10 @@
 
 namespace sgm {
 
-/// Makes allocations fail after this many more on all threads that are not spared: only the next one, or, if for_good,
-/// all from then on.
+/// Makes allocations fail after `after` more allocations: only the next one, or, if for_good, all from then on.
+/// Allocations of threads that called spareThisThread() neither count nor fail.
 void failHeap(long after, bool for_good);
-/// Ends the failures. Returns whether an allocation has failed.
+/// Ends the failures. Returns whether any allocation has failed.
 bool mendHeap();
 /// Exempts the calling thread from failures, permanently.
 void spareThisThread();

@@ -127,7 +127,7 @@ TEST_CASE("Clients beyond the limit are told so", "[threads]") {
   CHECK(again.ask(kGet).value().status == 200);
 }
 
-/// Limits the number of files that the process may open, during its lifetime.
+/// Limits the number of files that the process may open, during this object's lifetime.
 class FileLimit {
  public:
   explicit FileLimit(rlim_t files) {
@@ -160,7 +160,7 @@ TEST_CASE("A server without a file descriptor for another client closes it, and 
   {
     const FileLimit scarce(static_cast<rlim_t>(lowest) + 1);
     for (int i = 0; i < 20; ++i) {
-      Client more(served.server->port());  // takes the last free connection
+      Client more(served.server->port());  // this client takes the last free file descriptor
       CHECK(more.ended());
     }
     Client more(served.server->port());

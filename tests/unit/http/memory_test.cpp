@@ -43,8 +43,8 @@ TEST_CASE("Whichever allocation fails, the server serves the next client", "[thr
           reply(makeResponse(200, "text/plain", "later"));
       });
       if (for_good) {
-        // No request can be served without memory; waiting clients must be answered or disconnected once there is
-        // memory again.
+        // No request can be served without memory; when there is memory again, waiting clients must be answered or
+        // disconnected.
         std::this_thread::sleep_for(patience);
         all_answered = !mendHeap();
       }
@@ -63,8 +63,8 @@ TEST_CASE("Whichever allocation fails, the server serves the next client", "[thr
     const auto answer = next.ask("GET /a HTTP/1.1\r\nHost: h\r\n\r\n");
     REQUIRE(answer);
     CHECK(answer->status == 200);
-    // On a busy machine, the server may not have reached the failing allocation: before the loop ends, it is tried
-    // again with more time.
+    // On a busy machine, the server may not have reached the failing allocation: the same allocation is tried again
+    // with more time.
     const bool doubtful = for_good && all_answered && patience == 5ms;
     patience = doubtful ? 500ms : 5ms;
     if (doubtful) {

@@ -1,5 +1,5 @@
 #pragma once
-// Collects all results of a RequestReader for some bytes.
+// Reads bytes with a RequestReader, and collects all results.
 
 #include <cstddef>
 #include <functional>
@@ -17,7 +17,7 @@ struct Told {
   std::string body;
   bool has_head = false, go_on = false, ended = false;
   bool keep_alive = false;
-  int refused = 0;  ///< status with which the request was rejected; 0: it was not
+  int refused = 0;  ///< HTTP status with which the request was rejected; 0 if it was accepted
   std::string code;
 
   /// The whole result as text, for comparing and printing.

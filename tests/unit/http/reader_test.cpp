@@ -41,7 +41,7 @@ std::string encoded(Random& random, const std::string& text) {
   return out;
 }
 
-/// A request, and its bytes.
+/// A request, and its bytes as a client sends them.
 struct Said {
   Told told;
   std::string bytes;
@@ -224,7 +224,7 @@ TEST_CASE("A request that is answered at its head gives way to the next") {
 
 TEST_CASE("Each bad request has its status, and what looks like one but is not is read") {
   struct Case {
-    int status;  ///< 200: the request was read; otherwise the status of the rejection
+    int status;  ///< 200 if the request is read; otherwise the status of the rejection
     std::string bytes;
   };
   const std::string host = "Host: h\r\n", end = "\r\n";
@@ -236,7 +236,7 @@ TEST_CASE("Each bad request has its status, and what looks like one but is not i
   };
   const auto chunks = [&](const std::string& body) { return posted("Transfer-Encoding: chunked\r\n", body); };
   const std::vector<Case> cases = {
-      // The request line.
+      // Cases of the request line.
       {200, line("GET / HTTP/1.1")},
       {200, "\r\n" + line("GET / HTTP/1.1")},
       {400, "\r\n\r\n" + line("GET / HTTP/1.1")},
@@ -368,7 +368,7 @@ TEST_CASE("Each bad request has its status, and what looks like one but is not i
                    "chunked\r\n",
                    "0\r\n\r\n")},
       {501, posted("Transfer-Encoding:\r\n", "")},
-      // Expect, and transfer encodings.
+      // Cases of Expect, and of transfer encodings.
       {417, posted("Content-Length: 1\r\nExpect: 200-ok\r\n", "a")},
       {417, posted("Content-Length: 1\r\nExpect: 100-continue\r\nExpect: 100-continue\r\n", "a")},
       {200, posted("Content-Length: 1\r\nExpect: 100-CONTINUE\r\n", "a")},
@@ -420,7 +420,7 @@ TEST_CASE("The limits of a head are met to the byte") {
   CHECK(statusOf(line + "A: " + std::string(31, 'a') + "\r\nB: " + std::string(32, 'b') + "\r\n\r\n") == 0);
   CHECK(statusOf("GET /" + std::string(26, 'a') + " HTTP/1.1\r\nHost: h\r\n\r\n") == 0);
   CHECK(statusOf("GET /" + std::string(27, 'a') + " HTTP/1.1\r\nHost: h\r\n\r\n") == 414);
-  // Input that never ends is limited.
+  // Input that never ends is rejected at a limit.
   CHECK(statusOf(std::string(101, 'a')) == 414);
   std::string parameters;
   for (size_t i = 0; i < kMaxParameters; ++i) parameters += "&a";

@@ -15,7 +15,8 @@
 
 namespace sgm::service::http {
 
-/// Keeps the body; rejects it midway if it contains "STOP", and throws an exception if it contains "THROW".
+/// Keeps a request's body. Rejects the body midway if it contains "STOP", and throws an exception if it contains
+/// "THROW".
 class TestBody : public Body {
  public:
   std::optional<Response> take(std::string_view piece) override {
@@ -62,7 +63,7 @@ class TestHandler : public Handler {
     reply(makeResponse(200, "text/plain", request.method + " " + request.path + " " + (taken ? taken->bytes : "")));
   }
 
-  /// The Reply for the next request of /later; null if no such request arrives within that time.
+  /// The Reply for the next request of /later; null if no such request arrives within this time.
   Reply takeReplyWithin(std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
     if (!changed_.wait_for(lock, time, [&] { return !kept_.empty(); })) return nullptr;
@@ -76,7 +77,7 @@ class TestHandler : public Handler {
     return reply;
   }
 
-  /// Request::gone of the last request of /later.
+  /// Request::gone of the last request for /later, which becomes true when the client disconnects.
   std::shared_ptr<const std::atomic<bool>> lastGone() {
     const std::lock_guard lock(mutex_);
     return last_gone_;

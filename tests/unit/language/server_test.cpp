@@ -219,8 +219,7 @@ TEST_CASE("lines end with either of their ends, or with both") {
   CHECK(text.offset({0, 9}) == 1);
   CHECK(text.offset({1, 9}) == 4);
   CHECK(text.offset({4, 1}) == 10);
-  // The compiler counts only
-  //  as the end of a line.
+  // For the compiler, only the character \n ends a line.
   CHECK(text.offsetOf(1, 4) == 3);
   CHECK(text.offsetOf(2, 1) == 6);
   CHECK(text.offsetOf(3, 2) == 9);

@@ -63,7 +63,7 @@ TEST_CASE("a mesh inside out has the volume below 0; an open one knows it about 
   for (unsigned seed = 0; seed < rounds(30); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
-    // The mesh is divided into two at random: the volumes of the parts, about one origin, add up to the whole.
+    // Divides the mesh into two parts at random: the parts' volumes about one origin add up to that of the whole mesh.
     const Mesh whole = placed(ball(2), random, between(random, 0.1, 10), 100);
     Mesh parts[2] = {{whole.points, {}}, {whole.points, {}}};
     for (const Triangle& t : whole.triangles) parts[random() % 2].triangles.push_back(t);
@@ -96,7 +96,7 @@ TEST_CASE("cubes counted by the three rules", "[cube_volume]") {
     const Mesh mesh = box({2, 3, 4});
     const CubeVolumes found = *cubeVolumes(mesh, {0, 0, 0}, {2, 3, 4}, 0.25);
     CHECK(found.centre == 8u * 12 * 16);
-    // Samples on the low faces count as inside, those on the high ones do not.
+    // Samples on the box's low faces count as inside, samples on its high faces do not.
     CHECK(found.all == 7u * 11 * 15);
     CHECK(found.any == 9u * 13 * 17);
   }
@@ -119,7 +119,7 @@ TEST_CASE("cubes counted by the three rules", "[cube_volume]") {
     for (unsigned seed = 0; seed < rounds(10); ++seed) {
       CAPTURE(seed);
       std::mt19937 random(seed);
-      // Samples of half the lattice's edge also coincide with coordinates of vertices.
+      // If samples are half an edge of the lattice apart, they coincide with coordinates of vertices.
       const Mesh mesh = randomSurface(random, 6);
       const double edge = seed % 2 == 0 ? 0.5 : between(random, 0.3, 0.7);
       const CubeVolumes found = *cubeVolumes(mesh, {0, 0, 0}, {5, 5, 5}, edge);

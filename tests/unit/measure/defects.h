@@ -65,7 +65,7 @@ inline const std::vector<Defect>& defects() {
        [](Mesh& mesh, std::mt19937& random) {
          Triangle& t = mesh.triangles[any(random, mesh.triangles.size())];
          uint32_t& corner = t[any(random, 3)];
-         // Move the corner by a hundredth of an edge, so that the mesh only appears to be closed.
+         // Moves one corner by a hundredth of an edge, so that the mesh only appears to be closed.
          const Point moved =
              mesh.points[corner] + 0.01 * (mesh.points[t[0]] + mesh.points[t[1]] - 2.0 * mesh.points[t[2]]);
          corner = static_cast<uint32_t>(mesh.points.size());
@@ -86,7 +86,7 @@ inline const std::vector<Defect>& defects() {
          Mesh part = ball(1);
          const Point to = mesh.points[at] - size * part.points[0];
          mesh.add(part.moved([&](Point p) { return to + size * p; }));
-         // The part's first point coincides exactly with that point of the mesh.
+         // The first point of the ball coincides exactly with the vertex `at` of the mesh.
          mesh.points[mesh.points.size() - part.points.size()] = mesh.points[at];
        },
        [](const MeshMeasures& m) { return m.identity.pinched_vertices > 0; }},

@@ -49,7 +49,7 @@ TEST_CASE("the side of a plane is exact", "[exact_sign]") {
     const auto whole = [&] { return Whole{along(), along(), along()}; };
     const Whole a = whole(), b = whole(), c = whole();
     const Whole d = random() % 4 == 0 ? whole() : nearPlane(random, a, b, c);
-    // 1e-70 to 1e86; coordinates are up to 1e11 times this.
+    // The scale is 1e-70 to 1e86; coordinates are up to 1e11 times larger.
     const double scale = std::ldexp(1, static_cast<int>(random() % 520) - 232);
     const int expected = exactly(a, b, c, d);
     CHECK(orientation(a.scaled(scale), b.scaled(scale), c.scaled(scale), d.scaled(scale)) == expected);
@@ -69,7 +69,7 @@ TEST_CASE("the side of a plane does not depend on the order of its points", "[ex
     CAPTURE(seed);
     const auto place = [&] { return Point{between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)}; };
     const Point a = place(), b = place(), c = place();
-    // In the plane of the others, up to rounding.
+    // The fourth point lies in the plane of the other three, up to rounding.
     const Point d = a + between(random, -2, 2) * (b - a) + between(random, -2, 2) * (c - a);
     const int side = orientation(a, b, c, d);
     CHECK(orientation(b, c, a, d) == side);

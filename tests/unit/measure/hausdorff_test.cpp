@@ -23,7 +23,7 @@ Hausdorff apartOf(const Mesh& first, const Mesh& second, const HausdorffSettings
 
 Point cornerOf(const Mesh& mesh, const Triangle& t, size_t k) { return mesh.points[t[k]]; }
 
-/// The point of a triangle nearest to `to`, by repeated bisection: slow, and based only on convexity.
+/// Distance from `to` to the nearest point of a triangle, by repeated bisection: slow, and based only on convexity.
 double bySearch(const std::array<Point, 3>& t, Point to) {
   const auto along = [&](double v) {
     const auto at = [&](double u) { return length(t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]) - to); };
@@ -76,7 +76,7 @@ TEST_CASE("the nearest place of a triangle is the nearest of all its places") {
     for (Point& p : t) {
       p = {between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};
     }
-    // Slivers, and triangles that degenerate to a segment or a point.
+    // Some triangles are slivers, or degenerate to a segment or a point.
     if (round % 4 == 1) t[2] = t[0] + between(random, 0, 1) * (t[1] - t[0]) + 1e-9 * t[2];
     if (round % 16 == 2) t[2] = 0.5 * (t[0] + t[1]);
     if (round % 16 == 6) t[1] = t[2] = t[0];
@@ -94,7 +94,7 @@ TEST_CASE("the tree finds what a look at every triangle finds") {
   const auto jobs = threadsFor(1);
   for (unsigned round = 0; round < rounds(60); ++round) {
     Mesh mesh = scattered(random, 1 + random() % 40);
-    // Far from the origin, the single-precision boxes are coarse.
+    // Some meshes lie far from the origin, where single-precision boxes are coarse.
     if (round % 3 == 0) mesh = mesh.at({1e6, -1e6, 1e5});
     const Bvh tree(mesh, *jobs);
     for (int i = 0; i < 20; ++i) {
@@ -132,7 +132,8 @@ TEST_CASE("a surface is at no distance from itself, and at its own from a copy t
   CHECK(beside.atLeast() == Approx(0.2).margin(1e-12));
   CHECK(beside.atMost() == Approx(0.2).margin(1e-12));
   CHECK(beside.there.mean == Approx(beside.back.mean).margin(1e-12));
-  // Two of its six sides are 0.2 away; of the other four, only points near edges are, and less than 0.2.
+  // Two of the cube's six sides are 0.2 away from the other cube; of the remaining four, only points near edges are
+  // off, by less than 0.2.
   CHECK(beside.there.mean > 0.2 * 2 / 6);
   CHECK(beside.there.mean < 0.2 * 3 / 6);
 }
@@ -142,7 +143,7 @@ TEST_CASE("concentric balls are apart by the difference of their radii, as far a
   for (int cuts = 2; cuts <= 4; ++cuts) {
     const Mesh inner = ball(cuts), outer = ball(cuts).moved([](Point p) { return 1.5 * p; });
     const Hausdorff apart = apartOf(inner, outer, {2, 1e-3, 100'000});
-    // The distance of the middle of the largest triangle from the ball.
+    // Largest distance between a triangle and the ball: that of the middle of the largest triangle.
     double sagitta = 0;
     for (const Triangle& t : inner.triangles) {
       const Point middle = (1.0 / 3) * (inner.points[t[0]] + inner.points[t[1]] + inner.points[t[2]]);

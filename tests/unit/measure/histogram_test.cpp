@@ -64,7 +64,7 @@ TEST_CASE("as printed, half of the bins have numbers of 0 and less", "[histogram
     const LargeVector<Point> normals = smoothNormals(mesh);
     const uint32_t bins = 1 + static_cast<uint32_t>(random() % 64);
     const Histogram h = of(mesh, {HistogramMode::printed, bins});
-    // Equations 9 to 14 of the paper, evaluated literally with higher precision.
+    // Evaluates equations 9 to 14 of the paper literally, with higher precision.
     std::map<long, uint64_t> counts;
     uint64_t below = 0, edges = 0;
     constexpr long double kPi = std::numbers::pi_v<long double>;
@@ -118,7 +118,7 @@ TEST_CASE("a ball is convex all over, its inside concave", "[histogram]") {
 TEST_CASE("curvature stays as a mesh becomes finer, angles do not", "[histogram]") {
   for (int cuts = 2; cuts <= 5; ++cuts) {
     CAPTURE(cuts);
-    // The curvature of a ball of radius 1 is at 3/4 of the range: bin 75 of 99.
+    // The curvature of a ball with radius 1 lies at 3/4 of the range: bin 75 of 99.
     const Histogram h = of(ball(cuts), {HistogramMode::curvature, 99});
     double near = 0;
     for (size_t i = 72; i < 76; ++i) near += h.shares[i];

@@ -22,7 +22,7 @@ size_t placesOf(const MeshMeasures& m, DefectKind kind) {
       std::count_if(m.places.begin(), m.places.end(), [&](const DefectPlace& p) { return p.kind == kind; }));
 }
 
-/// Checks that every counted kind of defect has a place, and that the place lies at the named triangle.
+/// Checks that every counted kind of defect has places, and that each place lies at the triangle that it names.
 void checkPlaces(const Mesh& mesh, const MeshMeasures& m) {
   const auto shown = [&](DefectKind kind, uint64_t count) {
     CAPTURE(nameOf(kind));
@@ -99,7 +99,7 @@ TEST_CASE("open edges in the faces of the box that a mesh was cut from are no ho
   for (unsigned seed = 0; seed < rounds(100); ++seed) {
     std::mt19937 random(seed);
     Mesh mesh = box({4, 4, 4}, 4);
-    // The box's top is removed: it is open only at y = 4.
+    // Removes the box's top, so that the box is open only at y = 4.
     std::erase_if(mesh.triangles, [&](const Triangle& t) {
       return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return mesh.points[v].y == 4; });
     });
@@ -112,7 +112,7 @@ TEST_CASE("open edges in the faces of the box that a mesh was cut from are no ho
     CHECK_FALSE(found.valid());
     CHECK(found.places.empty());
     CHECK_FALSE(measured(mesh).validButForCut());
-    // A hole elsewhere is counted as a hole.
+    // A hole that is not in the faces of the cut still counts as a hole.
     const Triangle lost = mesh.triangles[random() % mesh.triangles.size()];
     std::erase(mesh.triangles, lost);
     const uint64_t at_top = static_cast<uint64_t>(
@@ -149,7 +149,7 @@ TEST_CASE("shells beside a cut stand in the solid that the open shells bound", "
     const int axis = static_cast<int>(random() % 3);
     const double face = random() % 2 == 0 ? 0 : 4;
     CAPTURE(seed, axis, face);
-    // A box that is open at the cutting plane.
+    // The surface of a box, without the face that lies in the cutting plane.
     Mesh cut_box = box({4, 4, 4}, 4);
     std::erase_if(cut_box.triangles, [&](const Triangle& t) {
       return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return cut_box.points[v][axis] == face; });
@@ -177,7 +177,7 @@ TEST_CASE("shells beside a cut stand in the solid that the open shells bound", "
     CHECK(nestingWith(outside, false) == std::array<uint64_t, 3>{0, 0, 0});
     CHECK(nestingWith(outside, true) == std::array<uint64_t, 3>{0, 1, 0});
 
-    // In a cavity of the solid, a ball is an outer surface again; a hollow in that ball is a cavity.
+    // A ball in a cavity of the solid has an outer surface again, and a hollow in this ball is a cavity.
     Mesh nested = cut_box, cavity = small.at(within), core = small.moved([](Point p) { return 0.5 * p; }).at(within);
     cavity.invert();
     nested.add(cavity);
@@ -187,13 +187,13 @@ TEST_CASE("shells beside a cut stand in the solid that the open shells bound", "
     nested.add(core.moved([&](Point p) { return within + 0.5 * (p - within); }));
     CHECK(measured(nested, settings).nesting.cavities == 2);
     CHECK(measured(nested, settings).validButForCut());
-    // Without an open shell, an inverted ball is a cavity in a solid that extends beyond the cut, unless another ball
-    // shows that there is void.
+    // Without an open shell, an inverted ball counts as a cavity in a solid that extends beyond the cut, unless another
+    // ball shows that there is void around.
     Mesh alone = cavity;
     CHECK(measured(alone, settings).nesting.cavities == 1);
     alone.add(small.at(outside));
     CHECK(measured(alone, settings).nesting.inside_out == 1);
-    // Without a cut, the same open shell encloses nothing.
+    // Without settings.cut, the open shell encloses nothing, so the inverted ball is inside out.
     Mesh uncut = cut_box;
     uncut.add(cavity);
     CHECK(measured(uncut, settings).nesting.cavities == 1);
@@ -288,7 +288,7 @@ TEST_CASE("no number is too large or too small to be told from a good mesh", "[m
   const MeshMeasures found = measured(part);
   CHECK(found.non_finite == 1);
   REQUIRE(found.self_intersections->pairs > 0);
-  // Reported triangles keep their numbers in the input.
+  // Reported triangle numbers refer to the input.
   for (const auto& [a, b] : found.self_intersections->examples) {
     CHECK(a >= 1);
     CHECK(a < 81);

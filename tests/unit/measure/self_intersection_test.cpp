@@ -45,7 +45,7 @@ Int128 planeAt(const std::array<Int128, 4>& plane, const Ratio3& p) {
   return plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3] * p.w;
 }
 
-/// The part of the polygon where the plane's value is at least 0, exactly.
+/// The exact part of the polygon in which the plane's value is at least 0.
 std::vector<Ratio3> clipped(const std::vector<Ratio3>& polygon, const std::array<Int128, 4>& plane) {
   std::vector<Ratio3> kept;
   for (size_t i = 0; i < polygon.size(); ++i) {
@@ -53,7 +53,7 @@ std::vector<Ratio3> clipped(const std::vector<Ratio3>& polygon, const std::array
     const Int128 a = planeAt(plane, p), b = planeAt(plane, q);
     if (a >= 0) kept.push_back(p);
     if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
-      // In homogeneous coordinates; the interpolated values are those at p.w and q.w.
+      // The intersection in homogeneous coordinates; a and b are the plane's values at p and q, times p.w and q.w.
       const Ratio3 cut{b * p.x - a * q.x, b * p.y - a * q.y, b * p.z - a * q.z, b * p.w - a * q.w};
       Int128 divisor = commonDivisor(commonDivisor(cut.x, cut.y), commonDivisor(cut.z, cut.w));
       if (cut.w < 0) divisor = -divisor;
@@ -63,8 +63,8 @@ std::vector<Ratio3> clipped(const std::vector<Ratio3>& polygon, const std::array
   return kept;
 }
 
-/// Whether two triangles with small integer coordinates and positive areas have a common point: one is clipped by the
-/// plane of the other, from both sides, and by the three planes through the other's edges.
+/// Whether two triangles with small integer coordinates and positive areas have a common point: clips one triangle by
+/// the other's plane, from both sides, and by the three planes through the other's edges.
 bool meetExactly(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
   const auto whole = [](double v) { return static_cast<Int128>(static_cast<int64_t>(v)); };
   std::vector<Ratio3> polygon;
@@ -86,22 +86,22 @@ bool meetExactly(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
 }  // namespace
 
 TEST_CASE("pairs of triangles, one by one", "[self_intersection]") {
-  const std::vector<Point> p{{0, 0, 0},  {4, 0, 0}, {0, 4, 0},   // 0 1 2: in the plane z = 0
-                             {1, 1, -1}, {1, 1, 1}, {5, 5, 0},   // 3 4 5: crosses that triangle
-                             {1, 1, 0},  {2, 1, 0}, {1, 2, 0},   // 6 7 8: in its plane, inside it
-                             {0, 0, 4},  {4, 4, 0}, {8, 0, 0}};  // 9 10 11
+  const std::vector<Point> p{{0, 0, 0},  {4, 0, 0}, {0, 4, 0},   // points 0 to 2: in the plane z = 0
+                             {1, 1, -1}, {1, 1, 1}, {5, 5, 0},   // points 3 to 5: cross triangle 0 1 2
+                             {1, 1, 0},  {2, 1, 0}, {1, 2, 0},   // points 6 to 8: inside triangle 0 1 2
+                             {0, 0, 4},  {4, 4, 0}, {8, 0, 0}};  // points 9 to 11
   const Triangle flat{0, 1, 2};
   CHECK(meetWrongly(p, flat, {3, 4, 5}));
   CHECK(meetWrongly(p, {3, 4, 5}, flat));
   CHECK(meetWrongly(p, flat, {6, 7, 8}));
-  CHECK(meetWrongly(p, flat, {6, 9, 4}));         // touches it with a corner
-  CHECK_FALSE(meetWrongly(p, flat, {0, 9, 4}));   // only a common corner
-  CHECK(meetWrongly(p, flat, {0, 3, 4}));         // a common corner, and crosses
-  CHECK(meetWrongly(p, flat, {0, 6, 9}));         // a common corner, and an edge in the other's plane
+  CHECK(meetWrongly(p, flat, {6, 9, 4}));         // a corner of one triangle touches the other triangle
+  CHECK_FALSE(meetWrongly(p, flat, {0, 9, 4}));   // the triangles share only a corner
+  CHECK(meetWrongly(p, flat, {0, 3, 4}));         // the triangles share a corner, and cross elsewhere
+  CHECK(meetWrongly(p, flat, {0, 6, 9}));         // share a corner; an edge lies in the other's plane
   CHECK_FALSE(meetWrongly(p, flat, {0, 1, 9}));   // a common edge
-  CHECK_FALSE(meetWrongly(p, flat, {1, 2, 10}));  // in one plane, on different sides of the common edge
-  CHECK(meetWrongly(p, flat, {0, 1, 6}));         // in one plane, on the same side of the common edge
-  CHECK_FALSE(meetWrongly(p, flat, {2, 1, 0}));   // the same triangle, reversed
+  CHECK_FALSE(meetWrongly(p, flat, {1, 2, 10}));  // in one plane, on different sides of their common edge
+  CHECK(meetWrongly(p, flat, {0, 1, 6}));         // in one plane, on the same side of their common edge
+  CHECK_FALSE(meetWrongly(p, flat, {2, 1, 0}));   // the triangle is the reversed first one
   CHECK_FALSE(meetWrongly(p, flat, {0, 1, 11}));  // without area
   CHECK(isFlat(p, {0, 1, 11}));
   CHECK(isFlat(p, {0, 0, 11}));
@@ -112,7 +112,7 @@ TEST_CASE("triangles on a small lattice meet where exact clipping says", "[self_
   int met = 0, apart = 0;
   for (unsigned seed = 0; seed < std::max(rounds(30000), 30000u); ++seed) {
     std::mt19937 random(seed);
-    // So few different places that corners on edges, edges on edges and common planes are frequent.
+    // There are so few positions that corners on edges, edges on edges and common planes are frequent.
     const auto n = 2 + static_cast<uint32_t>(random() % 4);
     std::vector<Point> points;
     for (int i = 0; i < 6; ++i) {
@@ -131,21 +131,20 @@ TEST_CASE("triangles on a small lattice meet where exact clipping says", "[self_
     met += expected;
     apart += !expected;
 
-    // Triangles with a common corner: they meet elsewhere if and only if they still meet after the corner is moved
-    // slightly inwards in both.
+    // Triangles with a common corner meet elsewhere if and only if they still meet after this corner is cut off.
     std::vector<Point> common = points;
     common[3] = common[0];
     const Triangle c{0, 4, 5};
     if (isFlat(points, c)) continue;
-    // The common corner is cut off both triangles, parallel to the opposite side; coordinates are scaled to stay whole
-    // numbers.
+    // Cuts the common corner off both triangles, parallel to the opposite side. Coordinates are scaled by k, so that
+    // they stay integers.
     const double k = 16;
     const auto scaled = [&](Point q) { return k * q; };
     const auto inward = [&](Point from, Point to) { return (k - 1) * from + to; };
     const Point o = common[0];
     bool meet = false;
-    // The rest of a triangle without its cut-off corner is divided into two triangles; with a large k, the cut-off part
-    // contains no intersection but the corner.
+    // Divides a triangle without its cut-off corner into two triangles; k is so large that the cut-off part contains no
+    // intersection but the corner.
     const auto rest = [&](Point q, Point r) {
       return std::array<std::array<Point, 3>, 2>{
           {{inward(o, q), scaled(q), scaled(r)}, {inward(o, q), scaled(r), inward(o, r)}}};
@@ -181,7 +180,7 @@ TEST_CASE("the tree finds all pairs that meet", "[self_intersection]") {
     const SelfIntersections here = found(mesh);
     CHECK(here.pairs == allPairs(mesh));
     CHECK(here.complete);
-    CHECK(here.folded == 0);  // no two triangles share an edge
+    CHECK(here.folded == 0);  // no two triangles of the mesh share an edge
     CHECK(here.examples.size() == std::min<size_t>(here.pairs, kMaxExamples));
     for (const auto& [a, b] : here.examples) {
       CHECK(a < b);

@@ -218,7 +218,7 @@ inline double windingNumber(const Triangles& mesh, Point at) {
   return angle / (2 * std::numbers::pi);
 }
 
-/// The order of convergence, from the errors at one density and at twice that density.
+/// The order of convergence, from the error at one density and the error at twice that density.
 inline double orderOf(double coarse, double fine) { return std::log2(std::fabs(coarse) / std::fabs(fine)); }
 
 }  // namespace sgm::measure

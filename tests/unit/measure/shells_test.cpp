@@ -195,14 +195,14 @@ TEST_CASE("how deep a place lies is what the winding number says", "[shells]") {
     const Shells parts = shellsIn(mesh);
     const Bvh tree(mesh, *jobs);
     for (int n = 0; n < 50; ++n) {
-      // Every other point lies exactly below a corner of the surface.
+      // Every second point lies exactly below a corner of the surface.
       Point at{between(random, 0, 5), between(random, 0, 5), between(random, 0, 5)};
       if (n % 2 == 0) {
         const Point corner = mesh.points[random() % mesh.points.size()];
         at = {corner.x, corner.y, at.z};
       }
       const double winding = windingNumber(mesh, at);
-      if (std::fabs(winding - std::round(winding)) > 1e-6) continue;  // the point lies on a surface
+      if (std::fabs(winding - std::round(winding)) > 1e-6) continue;  // the point lies on the surface of a shell
       CAPTURE(seed, n, at.x, at.y, at.z);
       CHECK(depthAt(mesh, tree, parts, kNoShell, at, 1u << 20) == static_cast<int>(std::round(winding)));
       CHECK(depthAt(mesh, tree, parts, kNoShell, at, 0) == std::nullopt);

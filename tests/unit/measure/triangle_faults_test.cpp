@@ -26,7 +26,7 @@ int32_t anyOf(std::mt19937& random, int32_t count) {
   return static_cast<int32_t>(random() % static_cast<uint32_t>(count));
 }
 
-/// Random triangles on a lattice with few places, so that common planes, lines and corners are frequent.
+/// Random triangles on a lattice with few positions, so that triangles often share planes, lines and corners.
 Places onLattice(std::mt19937& random, int32_t places, int32_t step) {
   Places t;
   for (Int3& p : t) p = {step * anyOf(random, places), step * anyOf(random, places), step * anyOf(random, places)};
@@ -82,7 +82,7 @@ TEST_CASE("integers say of two triangles what doubles do", "[faults]") {
     CHECK(fault == integerFault(b, a));
     const bool through = TrianglePair<IntegerSigns>::pierce(a, b);
     CHECK(through == measure::pierce(inDoubles(a), inDoubles(b)));
-    // A triangle that passes through another one cuts it, if both have an area.
+    // A triangle that passes through another one also cuts it, if both have an area.
     if (through && IntegerSigns::seenAlong(a) >= 0 && IntegerSigns::seenAlong(b) >= 0) CHECK(fault == PairFault::cut);
     ++seen[static_cast<size_t>(fault)];
     pierced += through;
@@ -97,17 +97,18 @@ TEST_CASE("folds, cuts and piercing by hand", "[faults]") {
   CHECK(fault({{{8, 0, 0}, {0, 0, 0}, {2, 2, 0}}}) == PairFault::folded);
   CHECK(fault({{{8, 0, 0}, {0, 0, 0}, {2, -2, 0}}}) == PairFault::none);
   CHECK(fault({{{8, 0, 0}, {0, 0, 0}, {2, 2, 1}}}) == PairFault::none);
-  // Duplicates are detected by their corner numbers elsewhere.
+  // Two triangles with the same corners are no fault here, because another check detects duplicates by their corner
+  // numbers.
   CHECK(fault({{{0, 8, 0}, {8, 0, 0}, {0, 0, 0}}}) == PairFault::none);
   CHECK(fault({{{1, 1, -1}, {1, 1, 1}, {9, 9, 9}}}) == PairFault::cut);
-  CHECK(fault({{{1, 1, 0}, {1, 1, 1}, {9, 9, 9}}}) == PairFault::cut);  // only touches the other triangle
+  CHECK(fault({{{1, 1, 0}, {1, 1, 1}, {9, 9, 9}}}) == PairFault::cut);  // only touches the floor triangle
   CHECK(fault({{{0, 0, 0}, {4, 4, 1}, {4, 4, -1}}}) == PairFault::cut);
-  CHECK(fault({{{0, 0, 0}, {4, 4, 0}, {4, 4, 0}}}) == PairFault::none);  // has no area
+  CHECK(fault({{{0, 0, 0}, {4, 4, 0}, {4, 4, 0}}}) == PairFault::none);  // the second triangle has no area
   const auto pierce = [&](const Places& other) { return TrianglePair<IntegerSigns>::pierce(floor, other); };
   CHECK(pierce({{{1, 1, -1}, {1, 1, 1}, {9, 9, 9}}}));
   CHECK_FALSE(pierce({{{1, 1, 0}, {1, 1, 1}, {9, 9, 9}}}));
   CHECK_FALSE(pierce({{{8, 0, 0}, {0, 0, 0}, {2, 2, 0}}}));
-  CHECK_FALSE(pierce({{{4, 0, -1}, {4, 0, 1}, {4, -9, 0}}}));  // passes through an edge
+  CHECK_FALSE(pierce({{{4, 0, -1}, {4, 0, 1}, {4, -9, 0}}}));  // passes through an edge of the floor
 }
 
 TEST_CASE("corners of a seam may lie in one place where one is of each level", "[faults]") {
@@ -159,7 +160,7 @@ TEST_CASE("a body's pairs are those within each cell where none is wide", "[faul
     std::mt19937 random(seed);
     std::vector<PairCorner> corners;
     PairCounts expected;
-    // Corners are ordered by cell, as in a mesh's body.
+    // The corners are in the order of their cells, as in the body of a chunk.
     for (int cell = 0; cell < 20; ++cell) {
       std::vector<PairCorner> of_cell;
       for (int i = 0; i < 6; ++i) {
@@ -176,7 +177,7 @@ TEST_CASE("a body's pairs are those within each cell where none is wide", "[faul
     const PairCounts counts = counted(corners);
     CHECK(counts == expected);
     all += counts;
-    // In another order, each triangle must be compared with all others near it.
+    // Shuffles the triangles: without the order by cell, each triangle must be compared with all others near it.
     for (size_t t = corners.size() / 3; t-- > 1;) {
       const auto other = static_cast<size_t>(anyOf(random, static_cast<int32_t>(t + 1)));
       for (size_t k = 0; k < 3; ++k) std::swap(corners[3 * t + k], corners[3 * other + k]);

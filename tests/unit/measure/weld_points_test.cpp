@@ -11,7 +11,7 @@
 namespace sgm::measure {
 namespace {
 
-/// The mesh with separate points for every triangle.
+/// Gives every triangle of the mesh its own points.
 Mesh soupOf(const Mesh& mesh) {
   Mesh soup;
   for (const Triangle& t : mesh.triangles) {
@@ -62,7 +62,7 @@ TEST_CASE("with a tolerance each point falls on the first one near it", "[weld]"
     std::vector<Triangle> triangles;
     for (uint32_t i = 0; i < 60; ++i) {
       const auto along = [&] {
-        // Some points lie exactly on the grid's lines, or exactly the tolerance apart.
+        // Some points lie exactly on the lines of the search grid, or exactly the tolerance apart.
         const double v = random() % 3 == 0 ? tolerance * static_cast<double>(random() % 8) : between(random, 0, reach);
         return v - far;
       };
@@ -85,8 +85,8 @@ TEST_CASE("with a tolerance each point falls on the first one near it", "[weld]"
 }
 
 TEST_CASE("a millionth of the diagonal would merge what a mesh of ours keeps apart", "[weld]") {
-  // Vertices near one corner of cells of 0.25 m, each 1/256 of the edge along another edge, in a region of two
-  // kilometres.
+  // Three vertices near a common corner of 0.25 m cells, each on a different edge at 1/256 of its length, in a region
+  // of 2 km.
   const double off = 0.25 / 256;
   const std::vector<Point> points{{off, 0, 0}, {0, off, 0}, {0, 0, off}, {2000, 0, 0}};
   const std::vector<Triangle> triangles{{0, 1, 2}, {0, 1, 3}};

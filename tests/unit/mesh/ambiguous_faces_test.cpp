@@ -64,7 +64,7 @@ size_t partsOf(const MeshPart& body) {
   return parts;
 }
 
-/// Number of invalid edges of a surface: used twice in one direction, or open inside the chunk.
+/// Number of invalid edges of a surface: edges that are used twice in one direction, or that are open inside the chunk.
 size_t badEdges(const MeshPart& body) {
   std::map<std::pair<uint32_t, uint32_t>, int> edges;
   for (size_t t = 0; t < body.indices.size(); t += 3)

@@ -119,7 +119,7 @@ TEST_CASE("a body equals the plain algorithm, order and bits", "[mesh][body]") {
       const ChunkGrid grid = latticeChunk({-128, 0, 256}, level);
       const ChunkSamples samples = sampleChunk(noise(static_cast<uint64_t>(density * 1000), density), grid);
       const MeshPart expected = referenceBody(samples, grid);
-      polygonizeBody(samples, grid, part);  // reuses one part for all cells
+      polygonizeBody(samples, grid, part);  // the same `part` is reused for all densities and levels
       INFO("density " << density << ", level " << level);
       CHECK(sameVertices(part, expected));
       CHECK((part.keys == expected.keys));
@@ -145,7 +145,7 @@ TEST_CASE("a vertex lies within its edge, by the ends' values in axis order", "[
   CHECK(crossing(kMaxQ, -1) == 255);
   CHECK(crossing(1, -511) == 1);  // 0.5 is rounded up
   CHECK(crossing(3, -509) == 2);  // 1.5 is rounded up
-  // 254.5, rounded up as well: by the order on the axis, not by the distance from the solid.
+  // 254.5 is rounded up as well: the direction of rounding is that of the axis, wherever the solid is.
   CHECK(crossing(509, -3) == 255);
   size_t bad = 0;
   for (uint64_t i = 0; i < 100000; ++i) {

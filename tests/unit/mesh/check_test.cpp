@@ -79,7 +79,7 @@ TEST_CASE("two bodies that share a vertex are pinched there, though every edge i
   CHECK(report.pinched_vertices == 1);
   CHECK(!report.closed());
   CHECK(checkTriangles(joined(kTetrahedron, kTetrahedron, 4), 8).closed());
-  // Two open sheets that share one border vertex, where the border consists of two paths.
+  // Two open triangles that share one border vertex, so that the border at this vertex consists of two paths.
   CHECK(checkTriangles(Triangles{0, 1, 2, 0, 3, 4}, 5).pinched_vertices == 1);
 }
 
@@ -115,7 +115,8 @@ TEST_CASE("a missing seam, a missing triangle and a merged fan are seen in a wor
   CHECK(seams > 6);
   CHECK(checkParts(allParts(meshes)).closed());
 
-  // With keys that name only the corner, two cycles of seam cells that meet in a corner would share one vertex.
+  // If the keys of seam vertices named only the corner, two cycles of seam cells that meet in a corner would share a
+  // vertex.
   size_t merged = 0;
   for (uint64_t seed = 0; seed < 12; ++seed) {
     const Octree other(seed + 20, 2, 2);

@@ -1,4 +1,4 @@
-// Tests distances to the nearest solid sample against examining all samples.
+// Tests distances to the nearest solid sample, by comparison with examining all samples.
 
 #include "mesh/clearance.h"
 
@@ -11,7 +11,7 @@ using namespace sgm;
 
 namespace {
 
-constexpr int kWide = 3 * kChunkCells + 1;  // samples along three chunks in a row
+constexpr int kWide = 3 * kChunkCells + 1;  // number of samples along three chunks in a row
 
 /// Samples of 27 chunks, divided into chunks.
 struct Block {

@@ -42,7 +42,7 @@ T valueAt(const std::string& bytes, size_t offset) {
   return value;
 }
 
-/// A bumpy ball with three materials, and a table of materials with one missing.
+/// A bumpy ball with three materials; the table of materials lacks one of them.
 WorldMesh someMesh(int32_t radius = 11) {
   const ChunkGrid grid{{-2048, 1024, 512}, 256, 0};
   const ChunkSamples samples = sampleChunk(
@@ -77,7 +77,7 @@ ExportInfo someInfo() {
 using Point = std::array<float, 3>;
 using Corner3 = std::array<Point, 3>;
 
-/// The triangles by position, each starting at its lowest corner: every format must preserve these.
+/// The triangles by corner positions, each beginning with its lowest corner: every format must preserve this set.
 std::multiset<Corner3> trianglesOf(const WorldMesh& mesh) {
   std::multiset<Corner3> triangles;
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -354,7 +354,7 @@ TEST_CASE("materials that others wrote stay, and .obj and .mtl change together o
   }
   const std::string after = contentOf(mtl);
   CHECK(after != before);
-  // A folder takes the .obj's name while the mesh is written: the old .mtl must be restored.
+  // A folder with the name of the .obj file appears while the mesh is written: the old .mtl file must be restored.
   for (const bool had_materials : {true, false}) {
     fs::remove_all(obj);
     if (!had_materials) fs::remove(mtl);

@@ -1,5 +1,5 @@
-// Tests fans with plane patches of which their centre may not see every point: every patch must be covered exactly
-// once.
+// Tests fans over planar patches whose points need not all be visible from the fan's centre: every patch must be
+// covered exactly once.
 
 #include "mesh/fan_triangles.h"
 
@@ -28,8 +28,8 @@ int64_t cross(const Place& a, const Place& b, const Place& c) {
   return int64_t{b.x - a.x} * (c.y - a.y) - int64_t{b.y - a.y} * (c.x - a.x);
 }
 
-/// A simple polygon above the x axis on the segment from (left, 0) to (right, 0), listed from the right end to the left
-/// end. It is star-shaped for a place above the segment, which need not be the fan's centre.
+/// A simple polygon above the segment of the x axis from (left, 0) to (right, 0), listed from the right end to the left
+/// end. It is star-shaped around a point above the segment, which is not necessarily the fan's centre.
 std::vector<Place> randomPatch(std::mt19937& random, int left, int right) {
   const Place eye{between(random, left + 20, right - 20), between(random, 30, 80)};
   const double from = std::atan2(-eye.y, right - eye.x), to = std::atan2(-eye.y, left - eye.x) + 2 * 3.14159265358979;
@@ -67,12 +67,12 @@ bool isSimple(const std::vector<Place>& polygon) {
 struct TwoPatches {
   FanPoint centre;
   std::vector<FanPoint> ring;
-  std::array<int64_t, 2> areas{};  ///< twice the areas
+  std::array<int64_t, 2> areas{};  ///< twice the area of each patch
   bool is_simple = false;
 
   explicit TwoPatches(std::mt19937& random) {
     const int left = -between(random, 40, 120), right = between(random, 40, 120);
-    // The middle lies off the line between the face vertices, or on it.
+    // The fan's centre lies off the line between the two face vertices, or on it.
     const Place middle{between(random, left + 10, right - 10), random() % 2 == 0 ? 0 : -between(random, 1, 9)};
     centre = {{middle.x, middle.y, 0}, kCellVertices, true};
     const FanPoint first{{right, 0, 0}, kFaceVertices, true}, second{{left, 0, 0}, kFaceVertices + 1, true};
@@ -115,7 +115,8 @@ TEST_CASE("patches of a fan are covered once, whatever the centre sees of them",
     const LoopTriangles fan =
         patchTriangles(patches.centre, patches.ring, true, [](uint32_t, uint32_t) { return true; });
     REQUIRE(fan.count() == patches.ring.size());
-    // Each side of the ring occurs in one direction, every other edge in both, and no edge twice.
+    // Each side of the ring must occur in one direction, every other edge in both directions, and no directed edge
+    // twice.
     std::map<std::pair<uint32_t, uint32_t>, int> edges;
     std::array<int64_t, 2> areas{};
     bool all_forward = true;
@@ -175,7 +176,7 @@ TEST_CASE("diagonals that are not free are not taken", "[mesh][sharpen]") {
         ++others;
       }
     }
-    // If the centre is a point of the ring, spokes may lie only where diagonals may.
+    // If the centre is itself a point of the ring, its spokes are diagonals, which the last argument allows or forbids.
     const FanPoint centre = patches.ring.front();
     const std::vector<FanPoint> rest(patches.ring.begin() + 1, patches.ring.end());
     const LoopTriangles none = patchTriangles(centre, rest, false, [](uint32_t, uint32_t) { return false; });
@@ -191,8 +192,8 @@ TEST_CASE("diagonals that are not free are not taken", "[mesh][sharpen]") {
 }
 
 TEST_CASE("strips between two creases are covered once, with the creases for edges", "[mesh][sharpen]") {
-  // Two walls stand on the edges x = left and x = right of a floor; the ring goes up one wall, along the floor's ends
-  // and up the other.
+  // A floor with two walls, on its edges x = left and x = right; the ring goes up one wall, along the floor's ends, and
+  // up the other wall.
   size_t seen = 0;
   for (unsigned seed = 1; seed <= rounds(3000); ++seed) {
     std::mt19937 random(seed);
@@ -221,7 +222,8 @@ TEST_CASE("strips between two creases are covered once, with the creases for edg
     addEnd(left, right, 0);
     const auto start = static_cast<std::ptrdiff_t>(random() % ring.size());
     std::rotate(ring.begin(), ring.begin() + start, ring.end());
-    // `from_second` chooses at which face vertex the walls are separated from the floor.
+    // `from_second` selects whether the patches that are cut off begin at the first or at the second face vertex of the
+    // ring; here, the walls must be cut off.
     const auto first = std::find_if(ring.begin(), ring.end(), [](const FanPoint& p) { return p.is_feature; });
     const bool from_second = first->name % 2 != 0;
     const auto isFree = [](uint32_t, uint32_t) { return true; };

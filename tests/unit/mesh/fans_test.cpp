@@ -11,8 +11,8 @@ using namespace sgm;
 
 namespace {
 
-/// A quad with the octants and half axes that it touches, computed from geometry: there are 12 quads; the centre of
-/// each is at (x, y, z) with one coordinate 0.
+/// One of the 12 quads around the corner, with the octants and half axes that it touches, computed from geometry: its
+/// centre is (x, y, z) with one coordinate 0.
 struct Quad {
   std::array<int, 3> centre{};
   int below() const {
@@ -58,7 +58,8 @@ TEST_CASE("fans are the cycles of interface quads around a corner", "[mesh][fans
       checkerboard |= here == 4;
     }
     if (checkerboard) continue;
-    // Follows each cycle from its lowest quad; every quad touches two half axes, each shared with one other quad.
+    // Follows each cycle of quads from its lowest quad; every quad touches two half axes, and shares each of these with
+    // one other quad.
     std::set<size_t> left(interface.begin(), interface.end());
     std::set<int> fans;
     while (!left.empty()) {

@@ -21,7 +21,7 @@ inline uint64_t pointHash(uint64_t seed, Int3 p) {
   return hashCombine(hashCombine(seed, part(p.x) << 32 | part(p.y)), part(p.z));
 }
 
-/// A quantised value of random size; it is solid with the probability `density`.
+/// A quantised value of random size, which is solid with the probability `density`.
 inline int32_t randomQ(uint64_t hash, double density) {
   const auto size = static_cast<int32_t>(hash >> 8 & (kMaxQ - 1));
   return PathKey{hash}.unit(1) < density ? -1 - size : size;

@@ -12,14 +12,14 @@
 namespace sgm::test {
 
 struct Leaf {
-  Int3 origin;  // in lattice points
+  Int3 origin;  // coordinates in lattice points
   int level = 0;
   friend auto operator<=>(const Leaf&, const Leaf&) = default;
 };
 
 class Octree {
  public:
-  /// The roots are grid^3 chunks of level levels - 1, which are split at random.
+  /// Splits grid^3 root chunks, which have the level levels - 1, at random.
   Octree(uint64_t seed, int grid, int levels);
 
   const std::set<Leaf>& leaves() const { return leaves_; }
@@ -27,7 +27,7 @@ class Octree {
   bool contains(Int3 p) const;
   /// The leaf that contains the lattice cell whose lowest corner is p. Precondition: contains(p).
   Leaf leafAt(Int3 p) const;
-  /// The blocks around a leaf that belong to coarser leaves; blocks outside the tree do not count.
+  /// Flags of the blocks around a leaf that belong to coarser leaves; blocks outside the tree do not count.
   Neighbourhood coarserAround(const Leaf& leaf) const;
 
  private:
@@ -49,7 +49,7 @@ struct LeafMesh {
 };
 std::vector<LeafMesh> meshOctree(const Octree& octree, const LatticeField& field);
 
-/// Meshes one leaf, given which of its neighbours are coarser.
+/// Meshes one leaf. coarser: flags of the neighbouring blocks that are coarser.
 LeafMesh meshLeaf(const Leaf& leaf, Neighbourhood coarser, const LatticeField& field);
 
 std::vector<const MeshPart*> allParts(const std::vector<LeafMesh>& meshes);

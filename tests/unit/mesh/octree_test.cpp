@@ -1,4 +1,5 @@
-// Tests bodies and seams together: closed, edge-manifold and with one cycle around every vertex, for any signs.
+// Tests bodies and seams together: for any signs of the samples, the surface is closed and edge-manifold, with one
+// cycle of triangles around every vertex.
 
 #include "octree.h"
 
@@ -20,8 +21,8 @@ int32_t distanceToChunkFace(int32_t x) {
   return std::min(r, kChunkCells - r);
 }
 
-/// Random values in blocks along the chunks' edges, where the rules are most difficult; void elsewhere and at the
-/// border of the world.
+/// Random values in blocks along the edges of chunks, where up to four chunks of different levels meet; void elsewhere
+/// and at the border of the world.
 LatticeField edgeNoise(uint64_t seed, double density, int32_t size, bool same_field) {
   return [=](Int3 p, int level) -> int32_t {
     const auto outside = [&](int32_t x) { return x <= 0 || x >= size; };
@@ -58,8 +59,8 @@ TEST_CASE("random octrees with random signs are closed", "[mesh][octree]") {
 }
 
 TEST_CASE("every way in which eight octants meet in a corner is closed", "[mesh][octree]") {
-  // Around the corner (64, 64, 64): octants of level 1, or the chunk of level 0 that touches the corner; everything
-  // else is void.
+  // The octants around the corner (64, 64, 64) are chunks of level 1, or those chunks of level 0 that touch the corner;
+  // all other space is void.
   const auto meets = [](unsigned coarser) {
     for (int axis = 0; axis < 3; ++axis) {
       const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
@@ -87,7 +88,7 @@ TEST_CASE("every way in which eight octants meet in a corner is closed", "[mesh]
         const auto low = [&](int axis) { return (o >> axis & 1) != 0 ? 64 : coarse ? 0 : 32; };
         Neighbourhood around = 0;
         if (!coarse) {
-          // Blocks towards the corner lie in other octants, all others in the chunk's own octant.
+          // Blocks towards the corner lie in neighbouring octants, all other blocks in the chunk's own octant.
           for (int i = 0; i < 27; ++i) {
             const std::array<int, 3> offset{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
             int octant = o;

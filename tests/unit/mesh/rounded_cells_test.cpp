@@ -1,4 +1,5 @@
-// Tests rounded cells at a chunk's face: the loops of single cells, and the cones over them.
+// Tests surface loops of single cells at a face of the chunk, and the fans (cones) over loops that have face vertices
+// there.
 
 #include <algorithm>
 #include <map>
@@ -42,7 +43,8 @@ std::array<int32_t, 8> randomCell(std::mt19937& random) {
   return q;
 }
 
-/// A side of a loop in a low face of its cell that no other side shares: it may have a face vertex at a border.
+/// A side of a loop that is the loop's only side in one low face of its cell. In a face of the chunk, such a side may
+/// have a face vertex.
 struct LowSide {
   uint32_t behind;
   int axis;
@@ -96,7 +98,7 @@ TEST_CASE("single cells have the loops that a body has", "[mesh][sharpen]") {
             REQUIRE(next < loops.all().size());
             const SurfaceLoop& of_body = loops.all()[next++];
             auto theirs = keysOf(body, of_body), ours = keysOf(part, loop);
-            // A body's loop may start at another one of its vertices.
+            // The loop of the body may start at a different vertex.
             const auto start = std::find(ours.begin(), ours.begin() + loop.count, theirs.front());
             std::rotate(ours.begin(), start, ours.begin() + loop.count);
             wrong += ours != theirs || of_body.cell != loop.cell;
@@ -130,7 +132,8 @@ TEST_CASE("rounded loops with face vertices at the border are valid", "[mesh][sh
       place[across] = 1 + anyOf(random, kSubcell - 1);
       place[along] = 1 + anyOf(random, kSubcell - 1);
       const bool high = anyOf(random, 2) == 0;
-      // Vertices may lie outside the cell, but not outside the chunk; these cells touch only low faces of it.
+      // Feature vertices may lie outside their cell, but not outside the chunk; these cells touch only low faces of the
+      // chunk.
       if (anyOf(random, 2) == 0 && high && isUncut(q, side.axis, across, high)) {
         place[across] = kSubcell + 9 + anyOf(random, kMaxOutside - 8);
         ++beyond;

@@ -22,7 +22,7 @@ using namespace sgm;
 namespace {
 
 using Vector = std::array<int64_t, 3>;
-using Corners = std::array<int, 3>;  ///< corners of a triangle, as edges of the cube
+using Corners = std::array<int, 3>;  ///< corners of a triangle, as numbers of the cube's edges on which they lie
 
 constexpr int kLeast = 1, kMost = 255;
 
@@ -32,7 +32,7 @@ Vector cross(const Vector& a, const Vector& b) {
 }
 int64_t dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Points through which planes are laid: the vertices on the edges 0 to 11, followed by the cube's corners.
+/// Number of points through which planes are laid: the vertices on the edges 0 to 11, followed by the cube's corners.
 constexpr int kPlaces = kCubeEdges + 8;
 
 Vector placeAt(int edge, int t) {
@@ -125,7 +125,7 @@ bool neverFolds(const Box& box, const Corners& a, const Corners& b) {
 bool separates(const Box& box, const Corners& plane, const Corners& a, const Corners& b) {
   const auto isInPlane = [&](int corner) { return std::find(plane.begin(), plane.end(), corner) != plane.end(); };
   const auto isShared = [&](int corner) { return std::find(b.begin(), b.end(), corner) != b.end(); };
-  // Triangles that both have corners of their own in the common plane may meet there.
+  // If both triangles have a corner of their own in the plane, they may meet there.
   const bool a_touches = std::any_of(a.begin(), a.end(), [&](int c) { return isInPlane(c) && !isShared(c); });
   const bool b_touches = std::any_of(
       b.begin(), b.end(), [&](int c) { return isInPlane(c) && std::find(a.begin(), a.end(), c) == a.end(); });
@@ -294,7 +294,7 @@ TEST_CASE("of a loop of seven, the triangulations that chordMask forbids are hal
 }
 
 TEST_CASE("seams overlap no more than their loops make them", "[mesh][tables]") {
-  // Projected into its plane, a loop's triangles overlap if their areas add up to more than the smallest total of any
+  // A loop's triangles overlap in projection if their areas add up to more than the smallest total area of any
   // triangulation.
   const Cell cell = seamCell();
   const uint64_t seed = testSeed();

@@ -26,9 +26,9 @@ using namespace sgm::test;
 
 namespace {
 
-constexpr double kMost = 0.05;  // cells, maximum distance between true edges and those of the mesh
+constexpr double kMost = 0.05;  // in cells: maximum distance between true edges and edges of the mesh
 
-/// Rotated boxes, and slabs thinner than a cell, every second of which is subtracted.
+/// A union of randomly rotated boxes and of slabs thinner than a cell; every second one is subtracted.
 struct JoinedBoxes : Field {
   std::vector<TurnedBox> boxes;
   explicit JoinedBoxes(uint64_t seed) {
@@ -53,7 +53,7 @@ struct JoinedBoxes : Field {
 
 constexpr ChunkGrid kLeft{{0, 0, 0}, kCell, 0}, kRight{{kChunkCells * kCell, 0, 0}, kCell, 0};
 
-/// The meshes of two chunks side by side.
+/// The meshes of the two neighbouring chunks kLeft and kRight.
 struct Meshes {
   MeshPart left, right;
   explicit Meshes(const Field& field) : left(meshChunk(field, kLeft)), right(meshChunk(field, kRight)) {}
@@ -63,7 +63,7 @@ struct Meshes {
   }
 };
 
-/// The two meshes, each sharpened separately.
+/// The meshes of both chunks, each sharpened without the other.
 Meshes sharpened(const Field& field) {
   Meshes meshes(field);
   sharpenBody(kLeft, samplerOf(field), meshes.left);
@@ -126,8 +126,9 @@ ContentHash hashOf(MeshPart part) {
 }  // namespace
 
 TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen][costly]") {
-  // One box in four hundred is not sharp at a corner on the border between the chunks, which passes through all boxes:
-  // the samples in the border separate the corner from the rest, or the field there does not show the third plane.
+  // One box in four hundred is blunt at a corner on the border between the chunks, which passes through every box:
+  // samples in the border separate the corner from the rest of the box, or the field there does not show the third
+  // plane.
   size_t blunt = 0;
   for (uint64_t seed = 1; seed <= rounds(200); ++seed) {
     INFO("seed " << seed);
@@ -215,7 +216,7 @@ TEST_CASE("boxes joined and cut at random stay closed, with keys of their own", 
 
 namespace {
 
-/// The field moved to a corner of the two chunks: the lowest or the highest corner of their common face.
+/// The field JoinedBoxes, moved to the lowest or the highest corner of the two chunks' common face.
 struct AtCorner : Field {
   JoinedBoxes boxes;
   double up;
@@ -228,8 +229,8 @@ struct AtCorner : Field {
 }  // namespace
 
 TEST_CASE("sharp features do not depend on the field farther away than they say", "[mesh][sharpen]") {
-  // Shapes farther away than sharpReach() are in one chunk's program and pruned from the other's, so they must not
-  // matter.
+  // Shapes farther away than sharpReach() are in one chunk's program but pruned from the other's, so they must have no
+  // effect.
   int64_t farthest = 0;
   for (uint64_t seed = 1; seed <= rounds(60); ++seed) {
     INFO("seed " << seed);
@@ -256,10 +257,10 @@ TEST_CASE("sharp features do not depend on the field farther away than they say"
 TEST_CASE("seams do not depend on the coarser field farther away than they say", "[mesh][sharpen]") {
   constexpr int32_t kCoarseCell = 2 * kCell;
   int64_t farthest = 0;
-  // Few seams evaluate the coarser field, so at least 40 rounds are run.
+  // Only few seams evaluate the coarser field, so the test runs at least 40 rounds.
   for (uint64_t seed = 1; seed <= std::max<uint64_t>(rounds(40), 40); ++seed) {
     INFO("seed " << seed);
-    // The face's coarser neighbour continues there.
+    // The shapes lie at the highest corner of the face, because the coarser neighbour's face continues beyond it.
     const AtCorner boxes(seed * 7, true);
     const auto coarse = [&](const Int3& p) {
       Vector3 gradient{};
@@ -351,7 +352,7 @@ TEST_CASE("creases are split into sides that face as the field does", "[mesh][sh
       }
     }
     CHECK(astray * 100 < corners);
-    // Meshes whose creases were split have the same welded mesh as before.
+    // Splitting creases does not change the welded mesh.
     splitCreases(meshes.left);
     splitCreases(meshes.right);
     const WorldMesh again = meshes.welded();
@@ -365,7 +366,7 @@ TEST_CASE("a direction is what its packed normal unpacks to", "[mesh]") {
   for (uint64_t seed = 1; seed <= 1000; ++seed) {
     std::array<double, 3> n{};
     for (size_t k = 0; k < 3; ++k) n[k] = PathKey{seed}.unit(k) - 0.5;
-    // Also directions along axes and in coordinate planes, which lie between octants.
+    // Some directions are along axes or in coordinate planes, which are the borders between octants.
     if (seed % 3 == 0) n[seed / 3 % 3] = 0;
     if (seed % 9 == 0) n[(seed / 3 + 1) % 3] = 0;
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);

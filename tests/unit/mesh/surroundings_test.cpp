@@ -1,4 +1,5 @@
-// Tests the squares around a side at the border: their places, and the surface in them.
+// Tests the grid squares around a side of a surface loop in a face of the chunk: their corners, and whether the surface
+// passes through them.
 
 #include "mesh/surroundings.h"
 
@@ -27,7 +28,7 @@ int32_t fieldAt(const Int3& p, uint32_t seed, int solid) {
   return static_cast<int>(mixed >> 4 & 1023) * 10 < solid * 1024 ? -size : size;
 }
 
-/// A side in a face of a chunk, with a face vertex in the adjacent square.
+/// A side of a loop in a face of a chunk, with a face vertex in the adjacent square.
 SharpSide sideBeside(std::mt19937& random, int across, int by, int height) {
   SharpSide side;
   side.axis = oneOf(random, 3);
@@ -132,7 +133,7 @@ TEST_CASE("squares beyond the face of the chunk do not matter", "[mesh][sharpen]
   side.places = FacePlaces({0, kSubcell + 130, 60});
   Surroundings around(side, kSquareUnits);
   sample(around, 7, 5);
-  // The square of the face vertex is the last of its row and the lowest of its column.
+  // The square that contains the face vertex is the last one of its row and the lowest one of its column.
   CHECK(around.ofCell(true, Square::beside));
   CHECK(around.ofCell(true, Square::high));
   for (const Square place : {Square::opposite, Square::low}) {

@@ -63,7 +63,8 @@ std::vector<LoopPoint> randomPoints(const std::vector<int>& loop, const uint16_t
   return points;
 }
 
-/// The maximum, over all allowed triangulations of the part i..j, of the area of the smallest triangle, by trying all.
+/// The best minimum triangle area that a triangulation of the part i..j can have, found by trying all allowed
+/// triangulations.
 int32_t bestByTrying(const std::vector<LoopPoint>& p, size_t i, size_t j) {
   if (j - i < 2) return std::numeric_limits<int32_t>::max();
   const bool outer = i == 0 && j + 1 == p.size();
@@ -109,7 +110,7 @@ TEST_CASE("every case closes into simple loops of its crossed edges", "[mesh][ta
 }
 
 TEST_CASE("each face is crossed once in each direction by its two sides", "[mesh][tables]") {
-  // The segments of a cell's loops in a face depend only on the signs of that face's corners.
+  // The segments in which a cell's loops cross a face depend only on the signs of that face's corners.
   for (const Table& table : tables()) {
     std::map<std::pair<size_t, uint32_t>, std::set<std::pair<int, int>>> segments_of_face;
     size_t differing = 0;
@@ -145,7 +146,8 @@ TEST_CASE("every loop is triangulated without a diagonal in a face", "[mesh][tab
         std::vector<uint32_t> out(3 * (n - 2) + 1, 99);
         const uint32_t* end = table.triangulate(points, out.data());
         bad += end != out.data() + 3 * (n - 2) || out.back() != 99;
-        // Every directed side of the loop occurs once, every diagonal once in each direction and not in a face.
+        // Every directed side of the loop must occur once; every diagonal must occur once in each direction, and not
+        // lie in a face.
         std::map<std::pair<uint32_t, uint32_t>, int> sides;
         for (size_t t = 0; t + 3 < out.size(); t += 3)
           for (size_t i = 0; i < 3; ++i) ++sides[{out[t + i], out[t + (i + 1) % 3]}];

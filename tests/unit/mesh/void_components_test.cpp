@@ -1,4 +1,4 @@
-// Tests the separate voids of a chunk: the same number as in the mesh, with exact masks.
+// Tests the separate voids of a chunk: their number is that of the mesh, and their masks are exact.
 
 #include "mesh/void_components.h"
 
@@ -58,7 +58,7 @@ std::vector<std::vector<Int3>> floodFill(Signs signs) {
   return voids;
 }
 
-/// The blocks of a sample by definition: block i contains the samples 4 i to 4 i + 4.
+/// The blocks that contain a sample, along one axis, by definition: block i contains the samples 4 i to 4 i + 4.
 std::vector<int> blocksOf(int32_t sample) {
   std::vector<int> blocks;
   for (int i = 0; i < 8; ++i) {
@@ -133,7 +133,8 @@ Signs randomChunk(std::mt19937& random, double noise) {
 TEST_CASE("samples join in a cell exactly where the mesh joins them: over every case of the rule") {
   const Cell cube = cubeCell();
   for (uint32_t solid = 0; solid < 256; ++solid) {
-    // Counts the components of samples of one sign, where samples at most `diagonal` axes apart are connected.
+    // Counts the components of the cell's corners of one sign; corners that differ in at most `diagonal` axes are
+    // connected.
     const auto pieces = [&](bool sign, int diagonal) {
       size_t count = 0;
       for (uint32_t left = sign ? solid : ~solid & 255; left != 0; ++count) {
@@ -151,7 +152,7 @@ TEST_CASE("samples join in a cell exactly where the mesh joins them: over every 
       return count;
     };
     CAPTURE(solid);
-    // Each loop bounds one disk, which separates the cell into one component more.
+    // Each loop bounds one disk, and each disk adds one component to the cell.
     CHECK(loopsOfCase(cube, solid).size() + 1 == pieces(true, 1) + pieces(false, 2));
   }
 }
@@ -159,7 +160,8 @@ TEST_CASE("samples join in a cell exactly where the mesh joins them: over every 
 TEST_CASE("voids join across the diagonal of every face, and not across a cell") {
   for (const Int3 to : {Int3{1, 0, 0}, Int3{1, 1, 0}, Int3{1, -1, 0}, Int3{1, 0, 1}, Int3{1, 0, -1}, Int3{0, 1, 1},
                         Int3{0, 1, -1}, Int3{1, 1, 1}, Int3{1, -1, 1}, Int3{-1, 1, 1}, Int3{1, 1, -1}}) {
-    // Two voids that only this pair of samples can connect: one extends to the low x face, one to the high one.
+    // Two voids that only the samples a and b can connect: one void extends to the chunk's low x face, the other to its
+    // high x face.
     const Int3 a{15, 16, 16}, b{16, 16 + to.y, 16 + to.z};
     const Signs signs = signsOf([&](Int3 p) {
       const bool low = p.x <= a.x + (to.x < 1 ? 1 : 0) - (to.x < 0 ? 1 : 0) && p.y == a.y && p.z == a.z;

@@ -233,7 +233,7 @@ TEST_CASE("what is drawn stands where its values are") {
   bars.groups = {"one", "two"};
   bars.series = {{"a", {1, 3}}, {"b", {2, std::numeric_limits<double>::quiet_NaN()}}};
   const std::vector<double> heights = valuesOf(drawn(bars).html, "height");
-  REQUIRE(heights.size() == 2 + 3);  // the legend's, and one for each value that is one
+  REQUIRE(heights.size() == 2 + 3);  // two marks of the legend, and a bar for each value that is a number
   CHECK(std::abs(heights[2] * 2 - heights[3]) < 0.1);
   CHECK(std::abs(heights[2] * 3 - heights[4]) < 0.1);
 }

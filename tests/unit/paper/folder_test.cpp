@@ -44,7 +44,7 @@ void endBy(int signal) {
   std::raise(signal);
 }
 
-/// Replaces reports until the process is killed, while other threads receive signals.
+/// Writes reports over each other until the process is killed, while other threads receive signals.
 [[noreturn]] void replaceForever(const fs::path& target) {
   std::signal(SIGTERM, endBy);
   const auto idle = [] {
@@ -104,7 +104,7 @@ TEST_CASE("what is no report stays as it was") {
     fs::remove(target / "grammars");
   }
   CHECK(checkReportFolder(target));
-  // A file edited without a change of its size, a link to the same bytes, and an empty folder.
+  // Edits of the folder: a file of unchanged size, a link to the same bytes, and an empty folder.
   write(target / "pictures/a.png", "OLD");
   refused();
   CHECK(contentOf(target / "pictures/a.png") == "OLD");
@@ -118,7 +118,7 @@ TEST_CASE("what is no report stays as it was") {
   fs::create_directory(target / "mine");
   refused();
   fs::remove(target / "mine");
-  // Without a manifest, or with another one, the folder is not ours and is not replaced.
+  // A folder without a manifest, or with another one, was not written by us, and is not replaced.
   write(target / kReportManifest, "mine");
   refused();
   fs::remove(target / kReportManifest);
@@ -155,7 +155,7 @@ TEST_CASE("what cannot be written leaves nothing behind") {
   CHECK_FALSE(checkReportFolder(folder.path / "missing" / "report"));
   const fs::path target = folder.path / "report";
   REQUIRE(writeReportFolder(target, report("old")));
-  // A file has the name of a folder that is needed.
+  // A file in the list has the name of a folder that another file needs.
   CHECK_FALSE(writeReportFolder(target, {{"pictures", "a file"}, {"pictures/a.png", "b"}}));
   CHECK(contentOf(target / kReportPage) == "old");
   CHECK(entriesOf(folder.path) == 1);

@@ -14,12 +14,12 @@ using namespace sgm::cli;
 
 namespace {
 
-constexpr int32_t kCell = 1024;  // units, cell size of the building, whose cube is then eight chunks
+constexpr int32_t kCell = 1024;  // cell size in units, with which the building's cube has eight chunks
 
 constexpr uint64_t kNever = ~uint64_t{0};
 
-/// Meshes as the CPU does, except that it reverses a triangle in one batch. Reports that another backend has meshed two
-/// chunks of every batch.
+/// A backend that meshes as the CPU does, but reverses a triangle in one batch. It reports that the CPU has meshed two
+/// chunks of every batch in its place.
 class LyingBackend final : public Backend {
  public:
   LyingBackend(std::shared_ptr<Backend> honest, uint64_t lie_at) : honest_(std::move(honest)), lie_at_(lie_at) {}
@@ -102,7 +102,7 @@ TEST_CASE("all contenders run as often, and what is absent does not") {
   size_t steps = 0;
   const Result<StageResult> result = measureStage(building(), kCell, 3, backend_runs, [&] { ++steps; });
   REQUIRE(result);
-  CHECK(steps == 8);  // including the first runs, which are not measured
+  CHECK(steps == 8);  // the count includes the first runs, which are not measured
   CHECK(result->rows[0].seconds.size() == 3);
   CHECK(result->rows[1].seconds.empty());
   CHECK(result->rows[2].seconds.size() == 3);
@@ -145,7 +145,7 @@ TEST_CASE("what a device leaves to the CPU is told of each") {
   const Result<StageResult> result = measureStage(building(), kCell * 32, 3, backend_runs, [] {});
   REQUIRE(result);
   CHECK(result->rows[0].on_cpu == 0);
-  CHECK(result->rows[1].on_cpu == 8);  // two chunks of the one batch of each run
+  CHECK(result->rows[1].on_cpu == 8);  // two chunks of each run's only batch
 }
 
 TEST_CASE("errors name the stage and the contender") {

@@ -55,7 +55,7 @@ TEST_CASE("in a hollow the camera stays where it is, outside its target does", "
     camera.turn(right, up);
     CHECK(near(camera.gaze()[inside ? 0 : 1], gaze[inside ? 0 : 1]));
     CHECK(glm::length(along(camera.gaze())) == Approx(glm::length(along(gaze))));
-    // The camera cannot turn over the vertical, however far it is turned.
+    // The camera stops at the vertical, however far it is turned.
     camera.turn(0, inside ? -50 : 50);
     CHECK(along(camera.gaze()).y < glm::length(along(camera.gaze())));
     CHECK(along(camera.gaze()).y > 0.99 * glm::length(along(camera.gaze())));
@@ -66,7 +66,7 @@ TEST_CASE("what is dragged follows the pointer", "[preview]") {
   const Gaze gaze{{{0, 2, 10}, {0, 2, 0}}};
   for (const bool inside : {true, false}) {
     CAPTURE(inside);
-    // Inside a hollow, a point of the wall straight ahead; outside, a point on the near side.
+    // Inside a hollow, the ray hits the wall straight ahead; outside, it hits the near side.
     const glm::dvec3 seen = inside ? glm::dvec3(0, 2, 0) : glm::dvec3(0, 2, 1);
     FreeCamera camera(gaze, inside);
     camera.turn(0.1, 0.1);

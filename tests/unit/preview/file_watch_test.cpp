@@ -15,7 +15,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
-/// Writes a file as if it was saved `seconds` later, so that the test also works on file systems with coarse times.
+/// Writes a file, and sets its time `seconds` later, so that the test also works on file systems with coarse times.
 void save(const std::filesystem::path& file, const std::string& text, int seconds) {
   write(file, text);
   std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(seconds));
@@ -66,7 +66,7 @@ TEST_CASE("files come, go and are replaced", "[preview]") {
   CHECK_FALSE(changedSoon(watch));
   write(file, "one");
   CHECK(changedSoon(watch));
-  // Many editors write a new file and rename it to the old name.
+  // Many editors write a new file, and rename it to the old name.
   save(fresh, "two", 9);
   std::filesystem::rename(fresh, file);
   CHECK(changedSoon(watch));

@@ -1,5 +1,5 @@
 #pragma once
-// Worlds that are asked about.
+// Worlds for tests of queries.
 
 #include "query/queries.h"
 #include "world/world_support.h"
@@ -8,7 +8,7 @@ namespace sgm {
 
 inline constexpr double kMetre = 1024;
 
-/// A world with its field.
+/// A world with the field that queries use.
 struct Asked {
   WorldField world;
   QueryField field;

@@ -1,23 +1,23 @@
 #pragma once
-// Caves of samples, and questions to them.
+// Caves made of samples, and queries of their voids.
 
 #include "flooded_voids.h"
 
 namespace sgm {
 
 inline constexpr int32_t kCell = 512;
-inline constexpr int32_t kBeyond = 6;  // samples around a region that are there too
+inline constexpr int32_t kBeyond = 6;  // number of samples on each side of a region that are sampled, too
 
-/// A cave: its samples, and the region of whole chunks that is asked about.
+/// A cave: its samples, and the region of whole chunks that is queried.
 struct Cave {
-  Int3 chunks, first;  ///< how many on each axis, and the lowest one
+  Int3 chunks, first;  ///< number of chunks along each axis, and the lowest chunk
   SampledBox lattice;
 
   explicit Cave(Int3 chunks_in, Int3 first_in = {}) : chunks(chunks_in), first(first_in), lattice(low(), size()) {}
   Cave(const WorldField& world, Int3 chunks_in, Int3 first_in)
       : chunks(chunks_in), first(first_in), lattice(world, low(), size()) {}
 
-  /// In samples, closed.
+  /// The queried region in samples, including both ends.
   IntBox region() const {
     return {{first.x * 32, first.y * 32, first.z * 32},
             {(first.x + chunks.x) * 32, (first.y + chunks.y) * 32, (first.z + chunks.z) * 32}};
@@ -64,7 +64,8 @@ inline VoidAnswer answered(const SignField& field, const VoidQuestion& question,
   return std::move(*answer);
 }
 
-/// Every place free, every step joined, from end to end; false at the first that is not.
+/// Whether `way` is a path from `from` to `to`: every place is open, every step joins neighbouring samples, and the
+/// length is the stated one.
 inline bool isWay(const VoidWay& way, const FloodedVoids& flooded, Int3 from, Int3 to, int32_t cell) {
   if (way.places.empty() || way.places.front() != Int3{from.x * cell, from.y * cell, from.z * cell}) return false;
   if (way.places.back() != Int3{to.x * cell, to.y * cell, to.z * cell}) return false;

@@ -50,7 +50,7 @@ Int3 pointAt(const DensityGrid& grid, size_t i) {
   return p;
 }
 
-/// The samples of all points, by one program without pruning.
+/// Samples all points by one program, without pruning.
 std::vector<int32_t> samplesOf(const WorldField& world, const DensityGrid& grid, int level = 0) {
   const size_t count = pointsOf(grid);
   std::vector<int32_t> x(count), y(count), z(count), q(count);
@@ -71,7 +71,7 @@ double expectedDensity(int32_t q, double edge, int32_t finest_cell) {
   return t < 0.5 ? 2 * t * t : 1 - 2 * (1 - t) * (1 - t);
 }
 
-/// Clouds over the whole sky.
+/// A world with clouds all over the sky.
 WorldFieldSettings clouds(uint64_t seed) {
   WorldFieldSettings settings = settingsOf(sample("cloud.sgm"), 4096, seed);
   REQUIRE(settings.parameters.set(*settings.program, "cover", 1.0));
@@ -159,7 +159,7 @@ TEST_CASE("a volume is the same for any number of threads, and cut into any boxe
     const DensityGrid grid = gridIn(random);
     const Volume whole = volumeOf(field, grid, 1);
     for (const unsigned threads : {2u, 5u}) CHECK(volumeOf(field, grid, threads).values == whole.values);
-    // The grid is computed in two parts along each axis, which are written into one array with its pitches.
+    // Computes the grid in two parts along each axis, and writes both into one array with the array's pitches.
     std::array<uint32_t, 3> at{};
     for (size_t axis = 0; axis < 3; ++axis) at[axis] = static_cast<uint32_t>(random() % grid.size[axis]);
     std::vector<float> joined(pointsOf(grid), -1.0f);
@@ -190,7 +190,7 @@ TEST_CASE("a volume is the same for any number of threads, and cut into any boxe
 TEST_CASE("the mesh lies where density begins", "[density][costly]") {
   const unsigned seed = 11;
   CAPTURE(seed);
-  constexpr int32_t kCell = 4096;  // the cell that clouds() uses
+  constexpr int32_t kCell = 4096;  // the cell size that clouds() uses, in units
   const WorldField world(clouds(seed), std::pmr::get_default_resource());
   std::vector<ChunkRequest> requests;
   for (int32_t x = 0; x < 16; ++x) {
@@ -216,7 +216,8 @@ TEST_CASE("the mesh lies where density begins", "[density][costly]") {
       const Volume edge = volumeOf(queryField(world), ends, 1);
       REQUIRE(edge.values.size() == 2);
       wrong += (edge.values[0] > 0) == (edge.values[1] > 0);
-      // A cell away along the normal, where the surface is not folded, there is fog only on the inner side.
+      // Half a cell away from the surface along the normal, there is fog on the inner side only, unless the surface is
+      // folded.
       DensityGrid sides;
       sides.size = {1, 1, 1};
       float density[2] = {};
@@ -272,7 +273,7 @@ TEST_CASE("a volume that makes no sense is refused, and one that is stopped ends
   CHECK(!codeOf(grid));
   ++grid.origin.y;
   CHECK(codeOf(grid) == Code::range);
-  // The whole world, with a spacing that just fits into int32.
+  // The grid spans the whole world, with a spacing that just fits into int32.
   grid.origin = {INT32_MIN, INT32_MIN, INT32_MIN};
   grid.spacing = INT32_MAX;
   grid.size = {3, 3, 3};
@@ -285,7 +286,7 @@ TEST_CASE("a volume that makes no sense is refused, and one that is stopped ends
   std::vector<std::pair<uint64_t, uint64_t>> told;
   CHECK(!codeOf(good, [&](uint64_t done, uint64_t total) {
     told.emplace_back(done, total);
-    return done < total;  // the last call is too late to stop
+    return done < total;  // the last call comes too late to stop the work
   }));
   REQUIRE(told.size() == 27);
   for (size_t i = 0; i < told.size(); ++i) CHECK(told[i] == std::pair<uint64_t, uint64_t>(i + 1, 27));

@@ -27,7 +27,7 @@ Int3 nearestUnit(const std::array<double, 3>& p) {
           static_cast<int32_t>(std::lround(p[2]))};
 }
 
-/// Whether all operations above the shape take its value unchanged or not at all.
+/// Whether each operation above the shape takes the shape's value unchanged or not at all.
 bool isExact(const std::vector<ExplainedNode>& nodes, size_t leaf) {
   for (size_t i = 0; i < leaf; ++i) {
     const ShapeKind kind = nodes[i].kind;
@@ -40,7 +40,7 @@ struct Count {
   size_t told = 0, exact = 0, edited = 0;
 };
 
-/// Explains surfaces of the world, and overrides the explained paths.
+/// Explains random surface points of the world, and overrides the explained paths.
 void checkWorld(const std::string& text, uint64_t seed, int32_t cell, double extent, std::mt19937& random,
                 unsigned places, Count& count) {
   const WorldField world(settingsOf(text, cell, seed), std::pmr::get_default_resource());
@@ -58,7 +58,7 @@ void checkWorld(const std::string& text, uint64_t seed, int32_t cell, double ext
     const ExplainedNode& leaf = found->nodes[found->leaf];
     CAPTURE(leaf.path);
     ++count.told;
-    // The field of the deciding group equals the world's, whichever of two touching groups decides.
+    // If two groups touch, either may decide: its field value equals the world's.
     CHECK((whole.cuts ? -whole.value : whole.value) == found->value);
     if (isExact(found->nodes, found->leaf)) {
       CHECK(std::fabs(leaf.value) == std::fabs(found->value));
@@ -67,12 +67,12 @@ void checkWorld(const std::string& text, uint64_t seed, int32_t cell, double ext
     CHECK(leaf.path.find("override") == std::string::npos);
     const CompileResult edited = compileGrammar(text + "\noverride \"" + leaf.path + "\" { }\n", "test.sgm");
     INFO(renderDiagnostics(edited));
-    // A use that already has an override refuses a second one, unless this one keeps the original (`inner`).
+    // A use that already has an override cannot get a second one, unless the second one keeps the original (`inner`).
     if (!edited.program && edited.diagnostics[0].code == "duplicate") {
       CHECK(compileGrammar(text + "\noverride \"" + leaf.path + "\" { inner; }\n", "test.sgm").program);
       continue;
     }
-    // A displaced sum must keep its largest shape, so some of these do not compile.
+    // A displaced sum must keep its largest shape, so some of the overrides do not compile.
     if (!edited.program && text.find("sum") != std::string::npos) continue;
     REQUIRE(edited.program);
     const WorldField without(settingsOf(text + "\noverride \"" + leaf.path + "\" { }\n", cell, seed),
@@ -97,8 +97,8 @@ TEST_CASE("what is said to make a surface makes it: without it the field is anot
   }
   CHECK(count.told > 10);
   CHECK(count.exact > 0);
-  // Removing a shape need not change the field if another shape shares its face or contains it, so only half are
-  // required to.
+  // Removing a shape need not change the field if another shape shares its face or contains it, so the check requires
+  // only half of the edits to change it.
   CHECK(count.edited * 2 > count.told);
 }
 

@@ -1,4 +1,5 @@
-// Rays and nearest points of the field, against analytic answers and dense sampling; far from the origin as near it.
+// Tests rays and nearest points of the field against analytic answers and dense sampling, far from the origin as well
+// as near it.
 
 #include <algorithm>
 #include <cmath>
@@ -132,7 +133,7 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
   const Int3 far{kMoved, -kMoved, kMoved};
   const Asked near_world(oneShape(shape)), far_world(oneShape(shape, 256, far));
   const Vector shift{kMoved, -kMoved, kMoved};
-  // The direction of the language's rotation is determined from the shape that it makes.
+  // A sample of the shape decides in which direction the language's rotation turns.
   const double turned =
       solidAt(near_world.field, rounded({std::sin(angle) * 3 * kMetre, 0, std::cos(angle) * 3 * kMetre})) ? angle
                                                                                                           : -angle;
@@ -140,7 +141,7 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
   int hits = 0, nearest = 0;
   for (unsigned i = 0; i < rounds(200); ++i) {
     CAPTURE(i);
-    // Coordinates in sixteenths of a unit are exact at both places.
+    // The coordinates are multiples of 1/16 unit, which are exact at both places.
     Vector from = dice.place(6 * kMetre);
     for (double& p : from) p = std::floor(p * 16) / 16;
     const Vector there = along(shift, from, 1);
@@ -155,7 +156,7 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
       CHECK(far_hit->distance == hit->distance);
       CHECK(far_hit->normal == hit->normal);
       if (!hit->inside) CHECK(std::fabs(boxDistance(hit->position, size, turned)) < 1.5);
-      // There is nothing solid in front of the hit.
+      // The ray passes no solid before the hit.
       for (double t = 0; t < hit->distance - 1; t += 40) {
         CHECK(boxDistance(along(from, direction, t), size, turned) > -1.5);
       }
@@ -174,7 +175,7 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
     CHECK(found->inside == (away < 0));
     CHECK(std::fabs(boxDistance(found->position, size, turned)) < 1.5);
     CHECK(length(less(found->position, from)) == Approx(found->distance).margin(1e-6));
-    // The tolerance that the interface states.
+    // The interface states this tolerance of distances.
     CHECK(found->distance > std::fabs(away) - 1.5);
     CHECK(found->distance < std::fabs(away) * 65 / 64 + 64 + 1.5);
     CHECK(far_found->distance == found->distance);
@@ -200,7 +201,7 @@ TEST_CASE("the surface nearest to a place by a ball is exact, inside and out") {
     CHECK(found->distance < away * 65 / 64 + 64 + 1.5);
     worst = std::max(worst, found->distance - away);
     CHECK(found->inside == (length(from) < radius - 1 || (length(from) < radius + 1 && found->inside)));
-    // With a smaller radius than the surface's distance, nothing is found.
+    // If the search radius is smaller than the distance to the surface, nothing is found.
     if (away > 8) CHECK_FALSE(closest(asked.field, from, away - 4 - away / 64));
   }
   WARN("nearest points: at most " << worst << " units too far");
@@ -242,7 +243,8 @@ TEST_CASE("a wall is hit from any side, a cell thick or a sixteenth of one") {
     for (unsigned i = 0; i < rounds(200); ++i) {
       CAPTURE(thick, cell, i);
       const Vector from = dice.place(3 * kMetre), direction = dice.direction();
-      // The sides of the wall's middle plane.
+      // side() is the signed distance from the wall's middle plane; `turn` is the sense of the wall's rotation, which a
+      // sample decides.
       const double c = std::cos(33 * 3.14159265358979 / 180), s = std::sin(33 * 3.14159265358979 / 180);
       const auto side = [&](const Vector& p, double turn) { return c * (p[1] - 0.211 * kMetre) + turn * s * p[2]; };
       const Vector to = along(from, direction, 8 * kMetre);
@@ -279,7 +281,7 @@ TEST_CASE("random rays and places in the cave agree with dense sampling, here an
     const double far = dice.real(1, 40) * kMetre;
     const auto hit = cast(asked.field, from, direction, far);
 
-    // Compares with a march along the ray in steps of a sixteenth of a cell.
+    // Marches along the ray in steps of 16 units, for comparison.
     IntBox box = IntBox{rounded(from), rounded(from)}
                      .joined({rounded(along(from, direction, far)), rounded(along(from, direction, far))})
                      .grown(1);
@@ -388,7 +390,7 @@ TEST_CASE("queries refuse what is not finite, outside of the world, or too much"
   walker.area = nan;
   CHECK(codeOf(isWalkable(field, box, walker)) == Code::invalid_argument);
 
-  // An error of the field is returned.
+  // If the field fails, the query returns the field's error.
   const QueryField broken{[](const IntBox&) -> Result<std::shared_ptr<const FieldProgram>> {
                             return Error{Code::cancelled, "not now"};
                           },

@@ -1,4 +1,4 @@
-// Searches for voids and ways as their callers see them: errors, progress, memory.
+// Tests searches for voids and paths from the caller's view: errors, progress, memory.
 
 #include <atomic>
 #include <limits>
@@ -12,7 +12,7 @@ using namespace sgm;
 
 namespace {
 
-/// The most bytes that were taken at one time.
+/// A memory resource that records the largest number of bytes that were allocated at any time.
 class MostBytes : public std::pmr::memory_resource {
  public:
   size_t most() const { return most_; }
@@ -35,7 +35,7 @@ class MostBytes : public std::pmr::memory_resource {
   size_t now_ = 0, most_ = 0;
 };
 
-/// What a search tells of its progress: the counts of each look or walk.
+/// Records the progress that a search reports: the counts of each pass over the chunks.
 class Told {
  public:
   Progress counter() {
@@ -47,7 +47,7 @@ class Told {
       return true;
     };
   }
-  /// Of the runs, each of which has come to its end.
+  /// The total counts of all passes; checks that each pass was completed.
   std::vector<uint64_t> totals() const {
     std::vector<uint64_t> all;
     for (const auto& [done, total] : runs_) {
@@ -122,7 +122,7 @@ TEST_CASE("the error of an end outside of the region says which, where it is, an
 }
 
 TEST_CASE("progress counts the chunks of each look and of the walk, and stops each of them") {
-  // A duct that winds through 5 by 20 chunks in one layer: 100 of them, more than are walked at one time.
+  // A duct that winds through a layer of 5 by 20 chunks, more than the 64 chunks that the search processes together.
   Cave cave({5, 20, 1});
   for (int column = 0; column < 5; ++column) {
     for (int y = 4; y <= 636; ++y) digBall(cave, {16 + 32 * column, y, 16}, 2);
@@ -136,7 +136,7 @@ TEST_CASE("progress counts the chunks of each look and of the walk, and stops ea
   const Result<VoidAnswer> answer = findVoids(field, *jobs, question, told.counter());
   REQUIRE(answer);
   CHECK(isWay(*answer->way, FloodedVoids(cave.lattice, cave.region(), 1.5), {16, 4, 16}, {144, 636, 16}, kCell));
-  // The walk comes after the first look; its first 64 chunks are looked at twice.
+  // The second pass is the search for the path. It visits all but the last group of chunks twice: 100 + 64 visits.
   const std::vector<uint64_t> totals = told.totals();
   REQUIRE(totals.size() >= 2);
   CHECK((totals[0] == 100 && totals[1] == 164));
@@ -178,15 +178,16 @@ TEST_CASE("the first progress comes long before a flat region is looked at, whic
       if (done == 1) before_first = sampled;
       return true;
     }));
-    // Every chunk once, those around the region too: no look comes back to what it has dropped.
+    // Every chunk is sampled once, including those around the region: the search never samples a dropped chunk again.
     CHECK(sampled == 26 * 26 * 3);
-    // 64 chunks of three rows, and what is around them.
+    // The first 64 chunks are in three rows, and need the rows around them, too.
     CHECK(before_first <= 5 * 26 * 3);
   }
 }
 
 TEST_CASE("of a long region a search keeps little at one time", "[costly]") {
-  // 3 by 3 by 300 chunks that all have a surface, whichever axis is the long one; sanitizers take minutes for each.
+  // Regions of 3 by 3 by 300 chunks, all with a surface, long along each axis in turn; sanitizers take minutes for
+  // each.
   const int axes = std::min(3, static_cast<int>(rounds(5)));
   for (int axis = 3 - axes; axis < 3; ++axis) {
     CAPTURE(axis);
@@ -200,7 +201,7 @@ TEST_CASE("of a long region a search keeps little at one time", "[costly]") {
     SignField field;
     field.cell = kCell;
     field.memory = &memory;
-    // What is solid is the chunks' corners.
+    // Only the corners of the chunks are solid.
     field.signs = [&](Int3) -> Result<ChunkSigns> {
       ChunkSigns signs{std::pmr::vector<uint64_t>(33 * 33, 0, &memory), false};
       for (const size_t row : {0u, 32u, 32u * 33, 32u * 34}) signs.rows[row] = uint64_t{1} << 32 | 1;
@@ -211,7 +212,8 @@ TEST_CASE("of a long region a search keeps little at one time", "[costly]") {
     REQUIRE(answer);
     REQUIRE(answer->way->verdict == WayVerdict::found);
     CHECK(answer->way->length >= 9520.0 * kCell);
-    // 2,700 chunks have 23 MB of signs, and the steps in the 300 of the way are 11 MB.
+    // All 2,700 chunks have 23 MB of signs, and the 300 chunks of the path have 11 MB of step costs; the search must
+    // keep less.
     CHECK(memory.most() < 10u << 20);
   }
 }

@@ -1,4 +1,4 @@
-// Tests voids and paths against a flood of all samples at once.
+// Tests voids and paths by comparison with a flood fill of all samples at once.
 
 #include <limits>
 #include <random>
@@ -26,7 +26,8 @@ class Random {
   std::mt19937 random_;
 };
 
-/// Void samples strewn about, as dense as hang together or do not quite: voids that cross each border very often.
+/// Random void samples, with densities around the one at which they connect, so that voids cross each border very
+/// often.
 void strew(Cave& cave, Random& random) {
   const double share = random.real(0.08, 0.3);
   for (size_t i = 0; i < cave.lattice.samples(); ++i) cave.lattice.set(cave.lattice.sampleAt(i), !random.chance(share));
@@ -114,13 +115,13 @@ Int3 someSample(Random& random, const Cave& cave, const FloodedVoids& flooded) {
   return any;
 }
 
-/// What the tests have seen, so that none of them can be of nothing.
+/// Counts of what the tests have met, which prove that the tests are not empty.
 struct Seen {
   size_t found = 0, apart = 0, narrow = 0, rock = 0;
   double walked = 0, shortest = 0;
 };
 
-/// Compares one query of a cave with the flood.
+/// Compares one query of a cave with a flood fill.
 void compare(const SignField& field, const Cave& cave, Random& random, double radius, Seen& seen) {
   const FloodedVoids flooded(cave.lattice, cave.region(), radius);
   const Int3 from = someSample(random, cave, flooded), to = someSample(random, cave, flooded);
@@ -130,7 +131,7 @@ void compare(const SignField& field, const Cave& cave, Random& random, double ra
   REQUIRE(answer.way);
   const VoidWay& way = *answer.way;
   if (cave.lattice.solid(from) || cave.lattice.solid(to)) {
-    // If a place lies in rock, the search starts at one of the samples around it, so the results are not compared.
+    // If an end lies in rock, the search starts at one of the void samples around it, so the results are not compared.
     ++seen.rock;
     return;
   }
@@ -163,7 +164,7 @@ TEST_CASE("random caves: voids and verdicts are those of a flood of all samples,
     CAPTURE(seed);
     Random random(seed);
     const Cave cave = randomCave(seed, random);
-    // Scattered samples and thin tubes are a sample wide, closed for any larger agent.
+    // Scattered void samples and thin tubes are one sample wide, and closed for any larger agent.
     const int widths = seed % 2 == 0 && random.chance(0.9) ? 2 : 5;
     const double radius = std::array{0.0, 0.9, 1.0, 1.5, 2.3}[static_cast<size_t>(random.below(widths))];
     compare(cave.lattice.field(kCell), cave, random, radius, seen);
@@ -188,7 +189,7 @@ TEST_CASE("caves of grammars: voids and verdicts are those of a flood of all sam
     const WorldField world(settingsOf(is_hall ? halls : holes, 1024, seed), std::pmr::get_default_resource());
     Int3 first = random.in({{-9, -9, -9}, {9, 9, 9}});
     if (is_hall) {
-      // Most of that world is rock, so the region is chosen around a place in a chamber.
+      // Most of the cave's world is rock, so the region is chosen around a place in a chamber.
       const auto anchors = world.anchors({{0, 0, 0}, {192 * 1024, 192 * 1024, 192 * 1024}});
       REQUIRE(anchors);
       REQUIRE(!anchors->empty());
@@ -228,12 +229,12 @@ TEST_CASE("the widest agent's radius parts those that pass from those that do no
     CHECK(widest <= std::min(asked.from_clearance, asked.to_clearance) / kCell);
     ++passed;
     wide += widest > 1.5;
-    // The flood and the search round squared distances differently.
+    // The flood fill and the search round squared distances differently.
     CHECK(FloodedVoids(cave.lattice, cave.region(), widest * (1 - 1e-9)).joined(from, to));
     CHECK_FALSE(FloodedVoids(cave.lattice, cave.region(), widest * (1 + 1e-9)).joined(from, to));
     CHECK(answered(field, questionOf(cave, from, to, std::nextafter(widest, 0))).way->verdict == WayVerdict::found);
     CHECK(answered(field, questionOf(cave, from, to, widest)).way->verdict != WayVerdict::found);
-    // The answer does not depend on earlier questions.
+    // The answer does not depend on earlier queries.
     for (const double radius : {0.0, widest / 2, 30.0})
       CHECK(answered(field, questionOf(cave, from, to, radius, true)).way->widest == asked.widest);
   }
@@ -243,7 +244,7 @@ TEST_CASE("the widest agent's radius parts those that pass from those that do no
 
 TEST_CASE("the widest agent's radius itself is too wide by the last bit, for every distance between samples",
           "[costly]") {
-  // The nearest solid sample is at the offset (a, b, c) from the place; also with odd cell sizes.
+  // The offset from the place to the nearest solid sample is (a, b, c); tests odd cell sizes, too.
   size_t rounded_down = 0;
   for (const int32_t cell : {256, 333}) {
     for (int a = 1; a <= 5; ++a) {
@@ -279,7 +280,7 @@ TEST_CASE("a hall wide enough has its agent told exactly, up to 32 cells") {
     digBall(cave, {32, 32, 32}, radius);
     const VoidWay way =
         *answered(cave.lattice.field(kCell), questionOf(cave, {32, 32, 32}, {32, 33, 32}, 16, true)).way;
-    // Compared with the distance to the nearest of all solid samples: an agent smaller than that is free at both ends.
+    // Compares with the distance to the nearest of all solid samples: a smaller agent fits at both ends.
     double nearest = 1e9;
     for (size_t i = 0; i < cave.lattice.samples(); ++i) {
       const Int3 p = cave.lattice.sampleAt(i);
@@ -369,7 +370,7 @@ TEST_CASE("places stand for the nearest void sample of the eight around them") {
   const SignField field = cave.lattice.field(kCell);
   VoidQuestion question = questionOf(cave, {16, 16, 16}, {16, 16, 16}, 0);
   question.ends->from = {16.4 * kCell, 15.6 * kCell, 16.0 * kCell};
-  // Nearer to the rock at sample 23 than to that at sample 22.
+  // This place is nearer to the rock at sample 23 than to the rock at sample 22.
   question.ends->to = {16.0 * kCell, 22.6 * kCell, 16.0 * kCell};
   VoidAnswer answer = answered(field, question);
   REQUIRE(answer.way->verdict == WayVerdict::found);

@@ -1,4 +1,4 @@
-// Floors that are walkable and floors that are not, by shapes with analytic answers; far from the origin as near it.
+// Tests walkable floors with shapes whose answers are known, near the origin and far from it.
 
 #include "asked_world.h"
 
@@ -20,7 +20,7 @@ TEST_CASE("a floor is walkable where a walker fits: slope, head, width, steps an
   const auto areaOf = [&](const std::string& shape, const Walker& walker = {}) {
     return walk(Asked(oneShape(shape)).field, box, walker);
   };
-  const IntBox under{box.lo, {box.hi.x, 2 * 1024, box.hi.z}};  // ends below the ceilings' upper sides
+  const IntBox under{box.lo, {box.hi.x, 2 * 1024, box.hi.z}};  // ends below the upper sides of ceilings
   const double all = 12.0 * 12.0 * kMetre * kMetre;
   const WalkableArea floor = areaOf("box(40m, 2m, 40m);");
   CHECK(floor.walkable);
@@ -28,8 +28,8 @@ TEST_CASE("a floor is walkable where a walker fits: slope, head, width, steps an
   CHECK(floor.largest == floor.standing);
   CHECK(floor.sides == 0b110011);
 
-  // The underside of a slab is no floor; a ceiling too low leaves none, one high enough all.
-  CHECK(areaOf("at(0m, 4m, 0m) box(40m, 1m, 40m);").standing > 0);  // its upper side, in the box
+  // The underside of a slab is no floor. Under a low ceiling, no floor is walkable; under a high one, all of it is.
+  CHECK(areaOf("at(0m, 4m, 0m) box(40m, 1m, 40m);").standing > 0);  // the slab's upper side, which lies in the box
   CHECK(areaOf("at(0m, 5m, 0m) box(40m, 1m, 40m);").standing == 0);
   const Asked high_ceiling(oneShape("box(40m, 2m, 40m); at(0m, 3.4m, 0m) box(40m, 1m, 40m);"));
   const Asked low_ceiling(oneShape("box(40m, 2m, 40m); at(0m, 3m, 0m) box(40m, 1m, 40m);"));
@@ -39,14 +39,14 @@ TEST_CASE("a floor is walkable where a walker fits: slope, head, width, steps an
   small.height = 1.2 * kMetre;
   CHECK(walk(low_ceiling.field, under, small).walkable);
 
-  // Slopes: 30 degrees is walked, 60 is not, but for who climbs.
+  // A slope of 30 degrees is walkable; a slope of 60 degrees is walkable only for a walker that climbs steeper slopes.
   CHECK(areaOf("rot(x, 30deg) box(40m, 2m, 40m);").largest > all / 2);
   CHECK_FALSE(areaOf("rot(x, 60deg) box(40m, 2m, 40m);").walkable);
   Walker climber;
   climber.slope = 0.4;
   CHECK(areaOf("rot(x, 60deg) box(40m, 2m, 40m);", climber).walkable);
 
-  // A step of 0.25 m is taken, one of 1 m is not: two floors, and neither goes all the way.
+  // A walker takes a step of 0.25 m, but not of 1 m: then there are two floors, and neither spans the box.
   const WalkableArea low = areaOf("box(40m, 2m, 40m); at(10m, 0.25m, 0m) box(20m, 2m, 40m);");
   CHECK(low.largest == low.standing);
   CHECK(low.sides == 0b110011);
@@ -54,7 +54,7 @@ TEST_CASE("a floor is walkable where a walker fits: slope, head, width, steps an
   CHECK(high.largest < 0.6 * high.standing);
   CHECK((high.sides & 3) != 3);
 
-  // A door of 2 m lets a walker through, one of its own width does not.
+  // A walker passes a door of 2 m, but not a door as narrow as the walker.
   const auto door = [&](double width) {
     const std::string half = std::to_string(6 - width / 2), at = std::to_string(3 + width / 4);
     return areaOf("box(40m, 2m, 40m); at(0m, 2m, " + at + "m) box(0.5m, 3m, " + half + "m); at(0m, 2m, -" + at +
@@ -65,9 +65,9 @@ TEST_CASE("a floor is walkable where a walker fits: slope, head, width, steps an
   CHECK((door(0.4).sides & 3) != 3);
   CHECK(door(0.4).walkable);
 
-  // A gap as wide as a cell and more is not stepped over.
+  // A walker does not step over a gap of 1 m, which is wider than a cell.
   CHECK((areaOf("at(10m, 0m, 0m) box(19m, 2m, 40m); at(-10m, 0m, 0m) box(19m, 2m, 40m);").sides & 3) != 3);
-  // Nothing, and rock through and through.
+  // There is no floor in an empty box, nor inside solid rock.
   CHECK(areaOf("at(100m, 0m, 0m) sphere(1m);").standing == 0);
   CHECK(areaOf("sphere(30m);").standing == 0);
 }

@@ -12,9 +12,9 @@
 
 namespace sgm::test {
 
-/// The pieces of a lattice of samples; solid(x, y, z) is called for 0 <= x < nx and so on. On each face of each cell,
-/// the mesh separates every maximal run of solid corners: so the corners of a run belong to one piece, and all void
-/// corners of the face belong to one.
+/// Finds the pieces of a lattice of samples; solid(x, y, z) is called for 0 <= x < nx and so on. On each face of each
+/// cell, the mesh separates the maximal runs of solid corners from each other: the corners of a run belong to one
+/// piece, and all void corners of the face belong to one piece.
 inline Pieces bruteForce(int nx, int ny, int nz, const std::function<bool(int, int, int)>& solid) {
   std::vector<int> parent(static_cast<size_t>(nx) * static_cast<size_t>(ny) * static_cast<size_t>(nz));
   std::iota(parent.begin(), parent.end(), 0);

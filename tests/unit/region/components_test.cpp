@@ -19,7 +19,7 @@ Pieces pieced(int nx, int ny, int nz, const Solid& solid) {
   const size_t words = ComponentCounter::rowWords(columns);
   ComponentCounter counter(columns, rows);
   for (int z = 0; z < nz; ++z) {
-    // Bits after the end of a row must not matter.
+    // Some bits after the end of a row are set, because they must not matter.
     std::vector<uint64_t> plane(words * rows, 0);
     for (size_t y = 0; y < rows; ++y) {
       for (size_t x = 0; x < words * 64; ++x) {
@@ -50,7 +50,7 @@ TEST_CASE("solid joins along the axes, air also across the diagonals of faces", 
     CHECK(counted(4, 4, 4, only({a, b}, true)) == Components{2, 1});
     CHECK(counted(4, 4, 4, only({a, b}, false)) == Components{1, 1});
   }
-  // Diagonally opposite corners of a cell are not connected.
+  // Solid corners of a cell that are diagonally opposite are not connected.
   CHECK(counted(4, 4, 4, only({{1, 1, 1}, {2, 2, 2}}, true)) == Components{2, 1});
   CHECK(counted(4, 4, 4, only({{1, 1, 1}, {2, 2, 2}}, false)) == Components{1, 2});
   CHECK(counted(4, 4, 4, only({{1, 1, 1}, {1, 1, 2}}, true)) == Components{1, 1});

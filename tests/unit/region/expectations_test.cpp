@@ -16,7 +16,8 @@ double valueOf(const Outcome& outcome) {
   return *outcome.measured[0].value;
 }
 
-/// Stones in grammar cells of 8 m, each with another number of spheres; a coarser layer around them adds nothing.
+/// A grammar with stones in cells of 8 m, each with a different number of spheres; a coarser layer around them adds
+/// nothing.
 std::string stones(const std::string& statements) {
   return "sgm 1; domain infinite axes xz; layer fine cell 8m reach 4m { start Plot; } "
          "layer wide cell 16m reach 1m { start Nothing; }\n"

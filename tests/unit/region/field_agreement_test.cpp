@@ -56,8 +56,8 @@ void placeExactly(const MeshedWorld& world, WorldMesh& mesh) {
   }
 }
 
-/// The order of convergence: the exponent of the cell size that the errors follow when it is halved repeatedly, by
-/// least squares.
+/// The order of convergence: the exponent p for which the errors are proportional to (cell size)^p, by least squares.
+/// errors: those of a sequence of cell sizes, each half of the previous one.
 double orderOfErrors(const std::vector<double>& errors) {
   double sum = 0, weights = 0;
   const double middle = 0.5 * static_cast<double>(errors.size() - 1);
@@ -83,15 +83,15 @@ TEST_CASE("normals are the gradient, and vertices lie on the surface") {
     CHECK(found.normals.count == found.vertices);
     CHECK(found.normals.inward == 0);
     CHECK(found.normals.outward() == 1);
-    // The normals may deviate by 5 degrees; actual errors are smaller: packing causes 0.004 degrees, rounding to 1/2048
-    // m at a radius of 2 m and central differences over 8 units little more.
+    // Normals are allowed to deviate by 5 degrees, but are much better: packing costs 0.004 degrees, and rounding to
+    // 1/2048 m at a radius of 2 m and central differences over 8 units cost little more.
     CHECK(found.normals.greatest < 0.1);
     CHECK(found.normals.p99 <= found.normals.greatest);
     CHECK(found.normals.median <= found.normals.p99);
     CHECK(found.faces.inward == 0);
     // A diagonal of a cell spans 6.2 degrees at the smallest radius, 2 m.
     CHECK(found.faces.p99 < 6.2);
-    // The sagitta h^2 / (8 r), and the rounding of 1/512 of a cell.
+    // The expected error is the sagitta h^2 / (8 r), and the rounding of positions, 1/512 of a cell.
     CHECK(found.residual_max * metres(1) < 0.125 * 0.125 / 8 / 1.5 + 0.125 / 512 + 1e-4);
     CHECK(found.residual_mean <= found.residual_p99);
     CHECK(found.residual_p99 <= found.residual_max);
@@ -117,7 +117,7 @@ TEST_CASE("normals of triangles converge with the cell, and vertices with its sq
     CAPTURE(shape, normals, residuals, means);
     CHECK(orderOfErrors(normals) >= 0.9);
     CHECK(orderOfErrors(means) >= 1.9);
-    // The first cell is two fifths of the smallest radius: there, higher-order terms still dominate the largest error.
+    // The first cell size is two fifths of the smallest radius, so higher-order terms still dominate its largest error.
     residuals.erase(residuals.begin());
     CHECK(orderOfErrors(residuals) >= 1.9);
   }
@@ -168,7 +168,7 @@ TEST_CASE("vertices that are off are found, with how far") {
   CHECK(spike.residual_max > 10 * before);
   CHECK(spike.farthest == one.positions[at]);
   CHECK(spike.residual_p99 < 2 * before);
-  // The whole mesh is moved up by a tenth of a metre.
+  // Moves the whole mesh up by a tenth of a metre.
   WorldMesh all = good;
   for (std::array<double, 3>& p : all.positions) p[1] += 0.1;
   const FieldAgreement shifted = agreementOf(meshed, all);
@@ -200,8 +200,8 @@ TEST_CASE("what lies in a crease is counted apart") {
   const IntBox all = world.program().domain.box;
   const WorldMesh sharp = splitCreases(meshed.meshed(all, 0, true).mesh);
   const FieldAgreement found = agreementOf(meshed, sharp);
-  // About 345 cells along the twelve edges have one vertex inside, and one in the face to the next cell, which counts
-  // once for each side.
+  // About 345 cells along the box's twelve edges have one feature vertex inside and one in the face to the next cell;
+  // the latter counts once for each side.
   CHECK(found.bent > 4 * 330);
   CHECK(found.bent < 4 * 360);
   CHECK(found.normals.count + found.bent + found.flat == found.vertices);

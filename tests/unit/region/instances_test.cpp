@@ -1,4 +1,4 @@
-// Tests the uses of one rule, each derived alone.
+// Tests the uses of a rule, each of which is derived alone.
 
 #include <algorithm>
 #include <set>
@@ -68,7 +68,7 @@ TEST_CASE("uses within uses repeat what is below them", "[metrics][derive]") {
   CHECK(leaves(uses[0]) == 15);
   CHECK(leaves(uses[1]) == 7);
   CHECK(leaves(uses.back()) == 1);
-  // The only use of the start rule is the whole cell.
+  // The start rule has one use, which is the whole cell.
   const std::vector<RuleInstance> start = instancesOf(*program, "A");
   REQUIRE(start.size() == 1);
   const Result<GrammarChunk> cell = deriveCell(*program, ParameterValues::defaults(*program), 7, 0, {}, NoLayers());
@@ -77,7 +77,7 @@ TEST_CASE("uses within uses repeat what is below them", "[metrics][derive]") {
   CHECK(instancesOf(*compiled("sgm 1; start A; rule A { } rule B { sphere(1m); }"), "B").empty());
 
   DeriveLimits limits;
-  limits.shapes = 30;  // all copies together have 49 shapes
+  limits.shapes = 30;  // less than the 49 shapes that all copies have together
   const Result<std::vector<RuleInstance>> many = deriveInstances(*program, ParameterValues::defaults(*program), 7, 0,
                                                                  {}, program->findRule("Twig"), NoLayers(), limits);
   REQUIRE_FALSE(many);
@@ -95,7 +95,7 @@ TEST_CASE("a start rule that only cuts the domain is what it cuts", "[metrics][d
     REQUIRE(uses.size() == 1);
     REQUIRE(uses[0].chunk.groups.size() == 1);
     CHECK_FALSE(uses[0].chunk.groups[0].cut);
-    // Shapes and expressions that enclose the call are left out.
+    // Shapes and expressions around the call of the rule are left out.
     CHECK(uses[0].chunk.shapes.size() == (rule[0] == 'C' ? 1 : 2));
     CHECK(uses[0].chunk.exprs.empty() == (rule[0] == 'C'));
   }

@@ -30,7 +30,8 @@ TEST_CASE("levels of a smooth surface come together with the square of the cell"
     const double cell = metres(meshed.field().cellAt(level + 1)), far = found.distance->atLeast();
     CAPTURE(level, cell, far, found.distance->atMost(), found.distance->there.mean);
     CHECK(found.distance->atMost() <= kLevelBound * cell);
-    // Three sagittas d^2 / (8 r) of the smallest radius, where d is the diagonal of a cell, for both levels together.
+    // The bound is the sagitta d^2 / (8 r) of a coarse cell, with the diagonal d = sqrt(3) cell and the smallest radius
+    // r = 10 m, and a quarter of it for the finer level; cell / 256 is the rounding of positions.
     CHECK(far < 3 * cell * cell / 8 / 10 * 1.25 + cell / 256);
     if (before > 0) {
       CHECK(far < before / 2);
@@ -47,7 +48,8 @@ TEST_CASE("what lies at the cut is left out, and what does not is all there", "[
       "sgm 1; domain infinite; layer l cell 64m reach 30m { start A; } "
       "rule A { at(32m, 32m, 32m) sphere(28m); }");
   const MeshedWorld meshed(world, 0.5);
-  // The ball in cell 0, cut by the plane x = 32 m: 32 cells of the fine level and 64 of the coarse one end there.
+  // The plane x = 32 m cuts the ball in half, at a border between cells of both levels: 64 fine cells or 32 coarse
+  // cells from 0.
   const IntBox half{{0, 0, 0}, {32 * kMetre, 64 * kMetre, 64 * kMetre}};
   const LevelDistance found = distanceOf(meshed, half, 0);
   CHECK(found.fine_left_out > 500);
@@ -55,7 +57,7 @@ TEST_CASE("what lies at the cut is left out, and what does not is all there", "[
   CHECK(found.fine_left_out < found.fine_triangles / 4);
   CHECK(found.distance->atLeast() < 0.1);
   CHECK(found.distance->atMost() < kLevelBound);
-  // The region's faces cut through chunks: the coarse mesh extends half a chunk farther.
+  // The region's faces cut through chunks, and the coarse mesh extends half a chunk beyond them.
   const LevelDistance odd = distanceOf(meshed, {{0, 0, 0}, {16 * kMetre, 16 * kMetre, 64 * kMetre}}, 0);
   CHECK(odd.coarse_left_out > odd.coarse_triangles);
   CHECK(odd.distance->atLeast() < 0.1);
@@ -84,7 +86,7 @@ TEST_CASE("a coarse mesh that is off is found, wherever either counts from", "[c
   };
   const double before = measured().atLeast();
   CHECK(before < 0.1);
-  // The same places, relative to another origin.
+  // Moves the origin and the positions, so that the mesh stays at the same place.
   const Int3 origin = coarse.mesh.origin;
   coarse.mesh.origin = {origin.x - 5 * kMetre, origin.y, origin.z + kMetre};
   for (std::array<double, 3>& p : coarse.mesh.positions) p = {p[0] + 5, p[1], p[2] - 1};
@@ -93,7 +95,7 @@ TEST_CASE("a coarse mesh that is off is found, wherever either counts from", "[c
   const measure::Hausdorff moved = measured();
   CHECK(moved.there.at_least > 0.5 - before);
   CHECK(moved.back.at_least < 0.5 + before);
-  // The coarse mesh is empty.
+  // Makes the coarse mesh empty.
   coarse.mesh.indices.clear();
   const Result<LevelDistance> vanished = levelDistance(fine.mesh, fine.extent, coarse.mesh, kMetre, {}, meshed.jobs());
   REQUIRE(vanished);

@@ -23,7 +23,7 @@ inline std::shared_ptr<const Program> compiled(const std::string& text, ImportRe
   return result.program;
 }
 
-/// A compiled grammar, and the threads and the backend with which it is measured.
+/// A compiled grammar, with the threads and the backend that measure its world.
 class World {
  public:
   explicit World(const std::string& text, ImportResolver* resolver = nullptr) : program_(compiled(text, resolver)) {
@@ -74,7 +74,7 @@ class World {
   std::unique_ptr<Backend> backend_;
 };
 
-/// Measures the whole finite world of a grammar with one rule that contains these statements.
+/// Measures the whole world of a grammar with a finite domain and one rule. shapes: the statements of the rule.
 inline RegionMeasures regionOfShapes(const std::string& shapes, double cell) {
   const World world("sgm 1; start A; rule A { " + shapes + " }");
   return world.measured(cell, world.program().domain.box);

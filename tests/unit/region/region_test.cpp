@@ -1,4 +1,4 @@
-// Tests measuring a region's mesh: random fields, with a stand-in for a backend, and known shapes.
+// Tests measuring a region's mesh: random fields with a stand-in for a backend, and known shapes.
 
 #include "region/region.h"
 
@@ -15,7 +15,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// Meshes a lattice field instead of the programs in the jobs.
+/// A stand-in for a backend that meshes a lattice field instead of the programs in the jobs.
 class LatticeBackend final : public Backend {
  public:
   explicit LatticeBackend(LatticeField field) : field_(std::move(field)) {}
@@ -157,7 +157,7 @@ TEST_CASE("area by integers is that of the triangles", "[metrics]") {
     REQUIRE(mesh);
     const double expected = measuresOf(*mesh).area;
     CHECK(expected > 0);
-    // Each triangle's area is rounded to 1/8192 of a 65,536th of a cell's face.
+    // The sum rounds each triangle's area to 1/8192 of a 65,536th of a cell's face.
     CHECK(std::abs(areaOf(sumsOf(part.vertices, part.indices), grid.cell) - expected) < 1e-8 * expected);
   }
 }
@@ -188,7 +188,7 @@ TEST_CASE("watertight: whole, cut by the border, with a triangle less", "[metric
   CHECK(ball.topology.watertight);
   CHECK(ball.topology.genus == 0u);
 
-  // A region that the ball extends beyond on one side.
+  // The ball extends beyond the region's low faces.
   const World world("sgm 1; domain finite box(20m, 20m, 20m); start A; rule A { at(2m, 3m, 2m) sphere(3m); }");
   const IntBox octant{{0, 0, 0}, {4 * kUnitsPerMetre, 4 * kUnitsPerMetre, 4 * kUnitsPerMetre}};
   const RegionMeasures part = world.measured(0.25, octant);
@@ -220,7 +220,8 @@ TEST_CASE("the volume of a ball is right to first order, its area too", "[metric
   for (double cell : {0.5, 0.25, 0.125}) {
     const RegionMeasures ball = regionOfShapes("sphere(3m);", cell);
     INFO("cell " << cell << ": cubes " << ball.cubes << ", area " << ball.area);
-    // A wrongly counted cube lies within half its diagonal of the surface; errors on both sides nearly cancel.
+    // A wrongly counted cube lies within half its diagonal of the surface; cubes counted too much and too little nearly
+    // cancel.
     CHECK(std::fabs(ball.cubes - 4 * pi * r * r * r / 3) < 4 * pi * r * r * cell * 0.1);
     CHECK(std::fabs(ball.area - 4 * pi * r * r) < 4 * pi * r * r * cell * 0.1);
     CHECK(ball.triangles > 0);

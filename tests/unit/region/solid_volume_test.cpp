@@ -51,8 +51,8 @@ TEST_CASE("thin and bulky boxes have their volume", "[metrics]") {
   const World slab("sgm 1; start A; rule A { box(10m, 1m, 10m); }");
   for (const double cell : {0.5, 0.25, 0.1, 0.05}) {
     INFO("cells of " << cell << " m");
-    // At an edge, marching cubes cuts off a triangle of half a cell's face at most; a face that coincides with samples
-    // is off by 1/256 of a cell.
+    // Marching cubes cuts off at most a triangle of half a cell's face along each edge; a face that coincides with
+    // samples is off by 1/256 of a cell.
     const double edges = 4 * (10 + 1 + 10) * cell * cell / 2, faces = (2 * 100 + 4 * 10) * cell / kSubcell;
     CHECK(std::fabs(volumeOf(slab, cell, slab.program().domain.box) - 100) < edges + faces);
   }
@@ -64,7 +64,7 @@ TEST_CASE("thin and bulky boxes have their volume", "[metrics]") {
 TEST_CASE("half a ball is left of one that a face of the border cuts, each of the six", "[metrics]") {
   const double whole = 4 * 3.14159265358979323846 * 27 / 3;
   for (int face = 0; face < 6; ++face) {
-    // The region's border is 4 m from the origin.
+    // The ball's centre lies on a face of the region's border, which is 4 m from the origin.
     const std::array<double, 3> at = [&] {
       std::array<double, 3> p{};
       p[static_cast<size_t>(face / 2)] = face % 2 == 0 ? -4 : 4;
@@ -102,7 +102,7 @@ TEST_CASE("volumes of regions side by side add up, near the origin and far out",
     const World world("sgm 1; domain infinite" + std::string(solid ? " solid" : "") +
                       "; layer l cell 64m reach 32m { start A; } rule A { " + shapes + " }");
     CAPTURE(round, shapes);
-    // 2,048 km away, 32,000 cells, the same shapes are at the same places relative to the grid.
+    // At a distance of 32,000 cells from the origin, the same shapes have the same places relative to the grid.
     for (const int32_t away : {0, 32'000 * 8}) {
       const Int3 first{away, -away, away};
       const double all = volumeOf(world, 0.25, chunksAt(first, {2, 2, 2}, 0.25));

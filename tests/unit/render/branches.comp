@@ -1,5 +1,5 @@
 #version 450
-// A branch for each of two bits of a constant, and in each a function of its own.
+// Each of two bits of a specialization constant enables a branch, and each branch calls a function of its own.
 layout(local_size_x = 1) in;
 layout(constant_id = 0) const uint kWanted = 3u;
 layout(std430, binding = 0) buffer Values { float values[]; };

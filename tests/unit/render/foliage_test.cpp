@@ -12,7 +12,7 @@ using namespace sgm;
 namespace {
 
 constexpr int kSide = 240;
-/// A cloud material: for a world with clouds of its own, no others are drawn in the sky.
+/// A cloud material: if a world has clouds of its own, no other clouds are drawn in the sky.
 constexpr RenderMaterial kPlainSky{SurfacePattern::cloud};
 
 /// A scene with a ball of 2 m radius that is entirely visible.
@@ -35,10 +35,11 @@ bool isBody(const Image& image, int x, int y) {
   return pixel[2] + 4 < std::max(pixel[0], pixel[1]);
 }
 
-/// Counts of pixels by their distance from the ball's middle, 1 at its outline: those that show bodies.
+/// Counts of pixels that show bodies, by their distance from the ball's middle (the outline is at 1).
 struct Seen {
   int inside = 0, inside_all = 0, near = 0, far = 0;
-  /// Pixels inside the outline in which the background is visible, and all pixels, in the middle and at the rim.
+  /// Numbers of pixels inside the outline in which the background is visible, and of all pixels there: in the middle
+  /// and at the rim.
   int middle_gaps = 0, middle = 0, rim_gaps = 0, rim = 0;
 };
 
@@ -69,7 +70,7 @@ TEST_CASE("leaves stand out from a crown, and no farther than they reach", "[ren
   const TestMesh ball = sphereMesh({0, 0, 0}, 2, false);
   const std::vector<RenderMaterial> leaf{materialByName("leaf"), kPlainSky}, brick{materialByName("brick"), kPlainSky};
   const Result<Image> crown = renderer->render(ballScene(ball, leaf));
-  // The sun is behind the camera, since isBody() does not detect surfaces lit only by the sky.
+  // The sun is behind the camera, because isBody() does not detect surfaces that only the sky lights.
   RenderScene lit = ballScene(ball, brick);
   lit.sun_direction = {0, 0.3f, 1};
   const Result<Image> bare = renderer->render(lit);
@@ -125,9 +126,9 @@ TEST_CASE("blades and leaves grow where their material is, and near the camera",
   triangle(1, 1, 0);
   triangle(0, 1, 0);
   triangle(1, 2, 0);
-  triangle(2, 2, -1000);            // too far from the camera
-  triangle(3, 3, 0);                // without relief, as under wires
-  triangle(2, 2, 0, {0.5f, 0.5f});  // with the chequered pattern
+  triangle(2, 2, -1000);            // too far from the camera for leaves
+  triangle(3, 3, 0);                // a material without relief
+  triangle(2, 2, 0, {0.5f, 0.5f});  // drawn in the checkerboard pattern
   const RenderScene scene = ballScene(mesh, materials);
   const Foliage foliage = foliageOf(scene, frameOf(scene));
   REQUIRE(foliage.ground.size() == 9);
@@ -152,7 +153,7 @@ TEST_CASE("blades stand on lawns and leaves on crowns, within the picture", "[re
   addTriangle(0, {0, 0, 0});
   addTriangle(1, {-2, 0, 0});
   addTriangle(2, {2, 0, 0});
-  addTriangle(1, {0, 0, 30});  // behind the camera
+  addTriangle(1, {0, 0, 30});  // the triangle lies behind the camera
   const RenderScene scene = ballScene(mesh, materials);
   const Foliage foliage = foliageOf(scene, frameOf(scene));
   size_t blades = 0, leaves = 0;
@@ -178,10 +179,10 @@ TEST_CASE("of near crowns the leaves alone are drawn, of all else its surface", 
     mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
   };
   triangle(0, 0, 0, 0);
-  triangle(0, 1, 0, 0);      // the second material has no share
-  triangle(0, 1, 0.4f, 0);   // blends from leaves to bark
+  triangle(0, 1, 0, 0);      // the second material has a share of 0
+  triangle(0, 1, 0.4f, 0);   // a blend from leaves to bark
   triangle(1, 1, 0, 0);      // bark
-  triangle(0, 0, 0, -1000);  // too far away to show leaves
+  triangle(0, 0, 0, -1000);  // too far away for leaves
   const RenderScene scene = ballScene(mesh, materials);
   const std::vector<uint32_t> drawn = withoutCrowns(scene, frameOf(scene), scene.indices);
   CHECK(drawn == std::vector<uint32_t>{6, 7, 8, 9, 10, 11, 12, 13, 14});
@@ -209,7 +210,7 @@ TEST_CASE("rays of the eye pass gaps of those triangles alone whose surface is n
   };
   CHECK(seen(0, 0, {0, 0}) > 100);
   CHECK(seen(0, 0.4f, {0, 0}) == seen(0, 0, {0, 0}));
-  CHECK(seen(1, 0, {0, 0}) == seen(0, 0, {0, 0}));  // the second material has no share
+  CHECK(seen(1, 0, {0, 0}) == seen(0, 0, {0, 0}));  // the second material has a share of 0
   CHECK(seen(1, 0.4f, {0, 0}) == 0);
   CHECK(seen(0, 0, {0.5f, 0.5f}) == 0);
 }

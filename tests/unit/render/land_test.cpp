@@ -39,7 +39,7 @@ int channel(const Image& image, int x, int y, int c) {
   return image.rgba[static_cast<size_t>(4 * (y * image.width + x) + c)];
 }
 
-/// Difference between red and blue of a pixel: how much whiter it is than blue sky.
+/// Difference between a pixel's red and blue: the whiter the pixel, the greater.
 int whiteness(const Image& image, int x, int y) { return channel(image, x, y, 0) - channel(image, x, y, 2); }
 
 }  // namespace
@@ -72,7 +72,7 @@ TEST_CASE("no land lies under what is whole, nor under what is made", "[render]"
     addFloor(cut, {-50, -50}, {50, 50}, 0, material);
     CHECK(landAround(outdoors(cut, materials)).has_value() == (material == 0));
   }
-  // A floor between two walls: only the walls reach the region's border.
+  // A floor between two walls: only the walls reach the region's border, so the floor is not its ground.
   TestMesh whole;
   addFloor(whole, {-49, -49}, {49, 49}, 0, 0);
   for (const float x : {-50.0f, 50.0f}) {
@@ -100,7 +100,7 @@ TEST_CASE("without ground at its border a world has no land around it", "[render
   const TestMesh none;
   CHECK(!landAround(outdoors(none, materials)));
   TestMesh above;
-  addFloor(above, {-50, -50}, {50, 50}, 9, 0);  // above the camera
+  addFloor(above, {-50, -50}, {50, 50}, 9, 0);  // the floor is above the camera
   CHECK(!landAround(outdoors(above, materials)));
   TestMesh ceiling;
   addFloor(ceiling, {-50, -50}, {50, 50}, 0, 0);
@@ -126,7 +126,7 @@ TEST_CASE("some of a fair sky is clouds, soft ones, and a world with its own clo
         clouded += whiteness(*seen, x, y) > whiteness(*plain, x, y) + 24;
         ++all;
         for (int c = 0; c < 3; ++c) {
-          // Nowhere darker than thick cloud; and without clouds, as uniform as plain air.
+          // The cloudy sky is nowhere darker than thick cloud, and the sky without clouds is as uniform as plain air.
           REQUIRE(channel(*seen, x, y, c) > 60);
           REQUIRE(std::abs(channel(*plain, x, y, c) - channel(*plain, x - 1, y, c)) < 14);
         }
@@ -147,9 +147,10 @@ TEST_CASE("the end of the ground is hard to tell from the land behind it", "[ren
   scene.fog_distance = 5000;
   const Result<Image> image = renderer->render(scene);
   REQUIRE(image);
-  // The ground ends 90 m away, 1.3 degrees below the horizon, which is in the middle of the picture.
+  // The ground ends 90 m away, 1.3 degrees below the horizon, which is in the middle of the picture. The land continues
+  // there.
   const double ground = brightness(*image, 48, 56, 6), land = brightness(*image, 48, 49, 1);
   CHECK(land == Approx(ground).epsilon(0.25));
-  // The ground does not have the colour of the sky.
+  // The land does not have the colour of the sky.
   CHECK(channel(*image, 48, 49, 0) > channel(*image, 48, 49, 2));
 }

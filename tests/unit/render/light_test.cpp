@@ -1,4 +1,4 @@
-// Tests the light that rays compute, in scenes whose light is known.
+// Tests the light that rays compute, in scenes whose light is known analytically.
 
 #include <cstring>
 #include <glm/common.hpp>
@@ -106,7 +106,7 @@ TEST_CASE("in even light a convex body is as bright as the light, and a cleft is
 TEST_CASE("a floor in the open gets the sky's mean, and its own shadow nowhere", "[render]") {
   LitStage stage;
   stage.addFloor(500, 0);
-  stage.materials.push_back({SurfacePattern::cloud});  // a world with cloud material gets no other clouds
+  stage.materials.push_back({SurfacePattern::cloud});  // a world with clouds of its own gets no clouds in the sky
   stage.scene.background = Background::sky;
   stage.look({0, 4, 0}, {0, 0, -6});
   const LightPlanes planes = stage.traced();
@@ -179,14 +179,14 @@ TEST_CASE("water is the deeper the farther its shore, and what stands in it is w
   stage.add({-6, -1, -6}, {6, -1, -6}, {6, 5, -6}, {-6, 5, -6});
   stage.look({0, 3, 6}, {0, 0.5f, -6});
   const LightPlanes planes = stage.traced();
-  // The depth of the water at a row, or if below 0, the wetness of the surface; -2 without either.
+  // The depth of the water at a row of the picture; if negative, the wetness of the surface.
   const auto water = [&](uint32_t y) {
     const uint32_t bits = planes.direct[size_t{y} * planes.width + 32].mirror[1] >> 16;
     const int exponent = static_cast<int>(bits >> 10 & 31u);
     const float size = exponent == 0 ? 0.0f : std::ldexp(1 + static_cast<float>(bits & 1023u) / 1024, exponent - 15);
     return (bits & 0x8000u) != 0 ? -size : size;
   };
-  uint32_t shore = 47;  // the last row, from the top, that shows the wall
+  uint32_t shore = 47;  // the last row of pixels, from the top, that shows the wall
   while (shore > 0 && planes.direct[size_t{shore} * 64 + 32].mirror[0] != 0) --shore;
   REQUIRE(shore > 4);
   REQUIRE(shore < 40);
@@ -242,7 +242,7 @@ TEST_CASE("the filter keeps even light, takes out noise, and stops at edges", "[
   }
   const double mean = sum / 640, deviation = std::sqrt(square / 640 - mean * mean);
   CHECK(mean == Approx(1).margin(0.06));
-  CHECK(deviation < 0.12);  // it was 0.58 without the filter
+  CHECK(deviation < 0.12);  // without the filter, the deviation is 0.58
   CHECK(dark == Approx(0.25).margin(1e-4));
 }
 
@@ -291,7 +291,7 @@ TEST_CASE("a cloud has a rim that light comes through, and a middle that none do
     for (uint32_t x = 0; x < 64; ++x) thin += cloudAt(planes, x, y).w > 0.02f && cloudAt(planes, x, y).w < 0.98f;
   CHECK(thin > 20);
   CHECK(thin < 400);
-  // Nothing is visible there, since it is no surface.
+  // Clouds do not count for the mean brightness, because they are no surfaces.
   CHECK(planes.brightness == 0);
 }
 
@@ -321,8 +321,8 @@ TEST_CASE("a cloud's rim shines where the sun stands behind it", "[render]") {
 }
 
 TEST_CASE("a cloud sends no more light than it gets", "[render]") {
-  // Renders the ball from twelve directions: compares the light that leaves it with the light from the sun and the sky
-  // that falls on its disc.
+  // Renders the ball of cloud from twelve directions, and compares the light that leaves it with the light from sun and
+  // sky that falls on it.
   double sum = 0, sky = 0;
   constexpr int kSides = 12;
   const glm::vec3 to_sun = glm::normalize(glm::vec3(0.3f, 0.8f, 0.5f));
@@ -341,7 +341,7 @@ TEST_CASE("a cloud sends no more light than it gets", "[render]") {
     sky += static_cast<double>(skyLight(glm::normalize(stage.scene.camera.position), to_sun).g) / kSides;
   }
   const double disc = 3.14159265 * 100 * 100;
-  // The radiance that leaves in all directions; what arrives is 3.14 times sunLight() on the disc for the sun, and the
+  // The light that leaves in all directions. The light that arrives is pi times sunLight() on the ball's disc, and the
   // sky's mean radiance times 4 pi.
   const double leaves = sum * 4 * 3.14159265,
                comes = disc * (3.14159265 * static_cast<double>(sunLight().g)) + disc * sky * 4 * 3.14159265;
@@ -369,7 +369,7 @@ TEST_CASE("clouds shade the ground, hide what is behind them, and are the same h
   }
   CHECK(brightest == 255);
   CHECK(darkest < 80);
-  // A wall in front of the cloud hides it.
+  // Adds a wall in front of the cloud, which the wall must hide.
   const auto before = cloudAt(one, 32, 24).w;
   stage.add({-300, -300, 200}, {300, -300, 200}, {300, 300, 200}, {-300, 300, 200}, 1);
   stage.look({0, 0, 500}, {0, 0, 0});
@@ -399,7 +399,7 @@ TEST_CASE("materials are found by name, tint and wetness", "[render]") {
   CHECK(wet->roughness < 0.5f * dry->roughness);
   CHECK(wet->colour.g < 0.7f * dry->colour.g);
   CHECK(findMaterial("wet_roof_tile_red"));
-  // Even the smoothest material stays in the range that shaders can divide by.
+  // Even the smoothest material is rough enough for the shaders, which divide by the roughness.
   for (const char* smooth : {"wet_water", "wet_glass", "wet_ice", "wet_wet_wet_limestone"}) {
     INFO(smooth);
     REQUIRE(findMaterial(smooth));
@@ -423,7 +423,7 @@ TEST_CASE("a name that is not known looks as a word of it that is", "[render]") 
   CHECK(materialByName("main_road").colour == materialByName("asphalt").colour);
   CHECK(materialByName("wall_ochre").colour == materialByName("plaster_ochre").colour);
   CHECK(materialByName("old_wet_road").colour == materialByName("wet_asphalt").colour);
-  // Names of materials have priority over words that only imply one, at any position in the name.
+  // The name of a material has priority over words that only imply a material, wherever it is in the name.
   CHECK(materialByName("wall_brick").pattern == SurfacePattern::brick);
   CHECK(materialByName("roof_slate").pattern == SurfacePattern::slates);
   CHECK(materialByName("floor_wood").pattern == SurfacePattern::wooden);

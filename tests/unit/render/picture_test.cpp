@@ -75,13 +75,13 @@ TEST_CASE("a void is seen from inside, and its walls' backs are open", "[render]
   scene.headlamp.reach = 20;
   auto outside = renderer->render(scene);
   REQUIRE(outside);
-  CHECK(brightness(*outside, 48, 48, 20) > 60);  // the far wall, seen through the near one
+  CHECK(brightness(*outside, 48, 48, 20) > 60);  // the far wall, seen through the back of the near one
 }
 
 TEST_CASE("relief that is too fine to be seen spreads highlights: what is far away is no mirror", "[render]") {
   auto renderer = testRenderer();
   if (!renderer) return;
-  // A dark wet ball 80 m away; a sample of the picture is as large as its relief, which must therefore act as
+  // A dark wet ball 80 m away: a sample of the picture is as large as the relief, which must therefore act as
   // roughness.
   const auto highlight = [&](float relief) {
     Stage stage{sphereMesh({0, 0, -110}, 30, false, 48)};
@@ -123,20 +123,20 @@ TEST_CASE("every pattern draws, under every background and supersampling, with n
                               "glow",          "joist",
                               "lava",          "nothing anyone has heard of"};
   Stage stage{sphereMesh({0, 0, -6}, 2, false)};
-  // All materials are in one scene, so that the device compiles its shaders once.
+  // All materials are in one scene, so that the shaders are compiled only once for the device.
   stage.materials.clear();
   for (const char* name : kNames) stage.materials.push_back(materialByName(name));
   for (uint32_t i = 0; i < kNames.size(); ++i) {
     for (RenderVertex& vertex : stage.mesh.vertices) vertex.material = i;
     for (Background background : {Background::cave, Background::sky}) {
-      RenderScene scene = stage.scene(65, 47);  // odd sizes, so that the last workgroup is not full
+      RenderScene scene = stage.scene(65, 47);  // the sizes are odd, so that the last workgroup is only partly filled
       scene.background = background;
       scene.supersample = background == Background::sky ? 3 : 1;
       scene.lamps.assign(kMaxLamps, RenderLamp{{3, 3, -3}, {1, 1, 1}, 2});
       auto image = renderer->render(scene);
       INFO(kNames[i]);
       REQUIRE(image);
-      const bool pane = stage.materials[i].pattern == SurfacePattern::glass;  // a dark room is behind it
+      const bool pane = stage.materials[i].pattern == SurfacePattern::glass;  // behind the pane, there is a dark room
       CHECK(brightness(*image, 32, 23, 8) > (pane ? 5 : 15));
     }
   }
@@ -146,7 +146,7 @@ TEST_CASE("every pattern draws, under every background and supersampling, with n
 TEST_CASE("a room shows behind a pane of clear glass, and none behind a tinted one", "[render]") {
   auto renderer = testRenderer();
   if (!renderer) return;
-  // A scene without any other light than the room's own.
+  // A scene without any light but that of the room behind the pane.
   const auto within = [&](const char* material) {
     Stage stage{sphereMesh({0, 0, -6}, 2, false)};
     stage.materials = {materialByName(material)};
@@ -170,12 +170,13 @@ TEST_CASE("a window of stained glass shows the sky behind it, and is dark in a c
     stage.materials = {materialByName(material)};
     RenderScene scene = stage.scene(64, 48);
     scene.background = background;
-    scene.sun_direction = {0, 1, -4};  // behind the window
+    scene.sun_direction = {0, 1, -4};  // the sun is behind the window
     scene.headlamp.colour = glm::vec3(0);
     scene.ambient = 0;
     auto image = renderer->render(scene);
     REQUIRE(image);
-    // Relative to the sky beside it, since the exposure rises if the window is dark.
+    // The brightness is relative to that of the sky next to the window, because the exposure rises if the window is
+    // dark.
     return brightness(*image, 32, 24, 9) / (background == Background::sky ? brightness(*image, 5, 40, 4) : 1);
   };
   const double pale = seen("leaded", Background::sky), dark = seen("leaded_black", Background::sky);
@@ -193,7 +194,7 @@ TEST_CASE("the same scene gives the same bytes, wherever its origin lies", "[ren
   auto again = renderer->render(scene);
   REQUIRE((first && again));
   CHECK(first->rgba == again->rgba);
-  scene.origin = {1024 * 1024 * 1500, -1024 * 1024 * 900, 1024 * 1024};  // whole periods of the patterns
+  scene.origin = {1024 * 1024 * 1500, -1024 * 1024 * 900, 1024 * 1024};  // whole periods of the materials' patterns
   auto far_away = renderer->render(scene);
   REQUIRE(far_away);
   CHECK(first->rgba == far_away->rgba);

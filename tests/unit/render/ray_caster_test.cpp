@@ -8,7 +8,7 @@ using namespace sgm;
 
 namespace {
 
-// The nearest hit, found by testing each triangle.
+// Finds the nearest hit by testing each triangle.
 std::optional<RayHit> castSlowly(const TestMesh& mesh, glm::vec3 from, glm::vec3 direction, float max_distance) {
   std::optional<RayHit> nearest;
   for (uint32_t t = 0; t < mesh.indices.size() / 3; ++t) {

@@ -22,7 +22,7 @@ struct TestMesh {
   std::vector<uint32_t> indices;
 };
 
-/// The mesh of a solid sphere, or of a hollow one in endless rock (void inside).
+/// The mesh of a solid sphere, or of a hollow one: void inside, endless rock outside.
 inline TestMesh sphereMesh(glm::vec3 centre, float radius, bool hollow, int rings = 24) {
   TestMesh mesh;
   const int around = 2 * rings;
@@ -48,7 +48,8 @@ inline TestMesh sphereMesh(glm::vec3 centre, float radius, bool hollow, int ring
 
 inline bool vulkanRequired() { return std::getenv("SGM_REQUIRE_VULKAN") != nullptr; }
 
-/// A renderer with the validation layer; nullopt, after printing the reason, if this machine has no Vulkan device.
+/// Makes a renderer with the validation layer; nullopt, after printing the reason, if this machine has no Vulkan
+/// device.
 inline std::optional<Renderer> testRenderer() {
   auto gpus = listGpus();
   if (!gpus) {

@@ -1,4 +1,4 @@
-// Tests the preview picture that is drawn in a fraction of a second.
+// Tests the sketch of a scene, a preview picture that is drawn in a fraction of a second.
 
 #include "tools/render/sketch.h"
 
@@ -36,7 +36,7 @@ TEST_CASE("a sketch is lit by the sun, and has a sky", "[render]") {
   const TestMesh ball = sphereMesh({0, 0, 0}, 2, false);
   const Result<Image> image = sketched(sceneOf(ball, materials, Background::sky), 2);
   REQUIRE(image);
-  // The sun is at the upper left.
+  // The light comes from the upper left.
   CHECK(brightness(*image, 70, 35, 5) > 1.3 * brightness(*image, 92, 56, 5));
   CHECK(brightness(*image, 92, 56, 5) > 15);
   const auto pixel = [&](int x, int y) { return &image->rgba[static_cast<size_t>(4 * (y * image->width + x))]; };

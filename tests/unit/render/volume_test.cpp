@@ -40,7 +40,7 @@ struct Fog {
 
   glm::vec3 end() const { return scene.corner + glm::vec3(scene.size - 1u) * scene.spacing; }
 
-  /// Length of the pixel's ray inside the box.
+  /// Length of a pixel's ray inside the box of fog.
   double crossed(int x, int y) const {
     const RenderCamera& camera = scene.camera;
     const double half = std::tan(0.5 * 3.14159265358979 / 180 * static_cast<double>(camera.fov_degrees));
@@ -72,7 +72,7 @@ VolumePicture drawn(const Renderer& renderer, const VolumeScene& scene) {
   return std::move(*picture);
 }
 
-/// The largest difference between a pixel's transmittance and exp(-optical depth).
+/// The largest difference between the transmittance of a pixel and exp(-optical depth).
 double error(const Fog& fog, const VolumePicture& picture, double extinction) {
   double worst = 0;
   for (int y = 0; y < fog.scene.camera.height; ++y) {
@@ -95,7 +95,7 @@ TEST_CASE("a uniform box lets exp(-extinction * way) through, at every pixel", "
     Fog fog(size, 1.3f, full);
     fog.scene.medium.extinction = 0.06f;
     CHECK(error(fog, drawn(*renderer, fog.scene), 0.06) < 1e-4);
-    // Also with the camera inside the fog.
+    // Tests a camera inside the fog, too.
     fog.scene.camera.position = {0.1f, 0.1f, -0.3f};
     fog.scene.camera.target = {0.1f, 0.1f, -1.3f};
     CHECK(error(fog, drawn(*renderer, fog.scene), 0.06) < 1e-4);
@@ -116,7 +116,7 @@ TEST_CASE("what lies far in a large volume counts, and the empty bricks before i
   fog.scene.medium.extinction = 0.05f;
   const VolumePicture picture = drawn(*renderer, fog.scene);
   CHECK(std::fabs(double{fog.at(picture, 48, 35).w} - std::exp(-0.05 * 10)) < 0.01);
-  // A ray beside the column sees no fog.
+  // A ray that passes the column of fog sees no fog.
   Fog column({60, 60, 60}, 1, [](glm::uvec3 p) { return p.x < 10 ? uint8_t{255} : uint8_t{0}; });
   const VolumePicture beside = drawn(*renderer, column.scene);
   CHECK(column.at(beside, 80, 35).w == 1.0f);
@@ -135,7 +135,7 @@ TEST_CASE("single scattering of a sun behind the eye is what its integral says",
   // Light enters along the ray and is scattered back along it, so it is attenuated in both directions.
   const double g = 0.3, phase = (1 - g * g) / (4 * 3.14159265 * std::pow(1 + g, 3));
   const double expected = 10 * 0.7 * phase * (1 - std::exp(-2 * 0.04 * 32)) / 2;
-  // Each pixel samples the ray at other offsets; the mean of many pixels is exact.
+  // Each pixel samples its ray at different offsets; the mean of many pixels is exact.
   glm::dvec3 light(0);
   for (int y = 28; y < 43; ++y) {
     for (int x = 41; x < 56; ++x) light += glm::dvec3(fog.at(picture, x, y)) / (15.0 * 15.0);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kWidth = 64, kHeight = 48;
 
-/// A wall of 6 m on a floor; over its left half, a slab projects from it at a height of 4 m.
+/// A wall 6 m high on a floor; a slab projects from its left half at a height of 4 m.
 struct Wall {
   TestMesh mesh;
   std::vector<RenderMaterial> materials{{SurfacePattern::plain, glm::vec3(0.5f), 0.9f, 1.0f}};
@@ -42,7 +42,8 @@ struct Wall {
   }
 };
 
-/// The exposure (SoftLight::lie) of a place on the wall: x metres from its middle, y metres up.
+/// The exposure (SoftLight::lie) of a place on the wall, x metres to the right of its middle and y metres above the
+/// floor.
 glm::vec4 lieAt(const LightPlanes& planes, float x, float y) {
   const float metres = 2 * 8 * std::tan(30 * 3.14159265f / 180) / kHeight;
   const auto u = static_cast<uint32_t>(kWidth / 2 + x / metres),
@@ -56,7 +57,7 @@ TEST_CASE("dirt finds corners, the foot of a wall and what lies under a ledge", 
   const LightPlanes planes = Wall().traced(Background::sky);
   CHECK(lieAt(planes, -3, 3.5f).y > 0.6f);
   CHECK(lieAt(planes, -3, 2.5f).y < lieAt(planes, -3, 3.5f).y);
-  CHECK(lieAt(planes, 3, 3.5f).y == 0);  // beside the slab
+  CHECK(lieAt(planes, 3, 3.5f).y == 0);  // the place is not below the slab
   CHECK(lieAt(planes, 3, 0.4f).z > 0.5f);
   CHECK(lieAt(planes, 3, 3).z == 0);
   CHECK(lieAt(planes, 3, 0.3f).x > 2 * lieAt(planes, 3, 3).x);
@@ -77,5 +78,5 @@ TEST_CASE("the brightest twentieth of what is in sight is brighter than the mean
   const LightPlanes planes = Wall().traced(Background::sky);
   CHECK(planes.brightness > 0);
   CHECK(planes.highlight > planes.brightness);
-  CHECK(planes.highlight < 2.5f);  // half of what the sun and the sky together could cause
+  CHECK(planes.highlight < 2.5f);  // half of the brightness that sun and sky together could cause
 }

@@ -1,4 +1,4 @@
-// Tests access control: names of this server, pages of other sites, the token.
+// Tests access control: the host names of this server, requests from pages of other sites, the token.
 
 #include "tools/service/ports/access.h"
 

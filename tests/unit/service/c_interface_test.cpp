@@ -16,7 +16,7 @@
 
 namespace {
 
-/// The whole answer to a request on this port; empty if no server listens there.
+/// Returns the whole answer to a request on this port; empty if no server listens there.
 std::string ask(uint16_t port, const std::string& path) {
   const std::string request = "GET " + path + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
   sockaddr_in to{};

@@ -15,7 +15,7 @@
 namespace sgm::service {
 
 struct Series {
-  std::string name;  ///< including the suffix _bucket, _sum or _count
+  std::string name;  ///< name of the series, including the suffix _bucket, _sum or _count
   std::vector<std::pair<std::string, std::string>> labels;
   double value = 0;
 
@@ -65,7 +65,7 @@ class MetricsReader {
     }
   }
 
-  /// Splits "name rest", the part of a comment after its keyword.
+  /// Splits the text after "# HELP " or "# TYPE " into the name of the metric and the rest.
   static std::pair<std::string, std::string> take(std::string_view line) {
     const size_t space = line.find(' ');
     REQUIRE(space != line.npos);
@@ -78,7 +78,7 @@ class MetricsReader {
       const auto [name, help] = take(line.substr(7));
       REQUIRE(isWord(name));
       REQUIRE(help.size() > 3);
-      REQUIRE(metrics_.count(name) == 0);  // each family must occur only once, with all of its series together
+      REQUIRE(metrics_.count(name) == 0);  // each metric family must occur only once, with all of its series together
       metrics_[name].help = help;
       now_ = name;
     } else if (line.substr(0, 7) == "# TYPE ") {

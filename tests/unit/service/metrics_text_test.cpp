@@ -20,7 +20,7 @@
 namespace sgm::service {
 namespace {
 
-/// Whether a value was written with sixteen digits.
+/// Whether the metric equals the value to sixteen digits.
 bool isWritten(double told, double value) { return std::abs(told - value) <= 1e-15 * std::abs(value); }
 
 const Series* find(const Metrics& metrics, const std::string& family, const std::string& name,
@@ -40,8 +40,7 @@ double valueOf(const Metrics& metrics, const std::string& name,
   return series->value;
 }
 
-/// Whether promtool is installed, which some tests need; it is an error if it is missing although everything is
-/// required.
+/// Whether promtool is installed, which some tests need. With SGM_REQUIRE_ALL, it is an error if promtool is missing.
 bool hasPromtool() {
   const bool there = std::system("promtool --version >/dev/null 2>&1") == 0;
   if (std::getenv("SGM_REQUIRE_ALL") != nullptr) REQUIRE(there);
@@ -131,7 +130,7 @@ TEST_CASE("metrics say what the samples say") {
     CHECK(of("sgm_world_idle") == world.stats.idle);
     CHECK(of("sgm_edits") == static_cast<double>(world.stats.edits));
     CHECK(of("sgm_chunk_cache_bytes") == static_cast<double>(world.stats.cache_bytes));
-    // In the metrics, each request has exactly one result; the statistics count damaged entries also as misses.
+    // In the metrics, each request counts once; in the statistics, a damaged entry also counts as a miss.
     CHECK(of("sgm_chunk_cache_requests_total", {{"result", "hit"}}) == static_cast<double>(world.stats.cache_hits));
     CHECK(of("sgm_chunk_cache_requests_total", {{"result", "miss"}}) +
               of("sgm_chunk_cache_requests_total", {{"result", "damaged"}}) ==
@@ -150,7 +149,7 @@ TEST_CASE("metrics say what the samples say") {
     }
     if (world.parallel_speedup) CHECK(isWritten(of("sgm_parallel_speedup_ratio"), *world.parallel_speedup));
 
-    // The buckets of one histogram, compared at each bound.
+    // Compares the buckets of one histogram at each bound.
     double below = 0;
     for (int i = 0; i + 1 < SGM_TIME_BUCKETS; ++i) {
       below += static_cast<double>(world.times.update.counts[i]);
@@ -191,7 +190,7 @@ TEST_CASE("metrics tell of this process") {
   const auto now = static_cast<double>(std::time(nullptr));
   CHECK(started <= now + 2);
   CHECK(started > now - 24 * 3600);
-  // The metric counts these descriptors, but not those that reading /proc opens.
+  // The metric counts the two descriptors of the pipe, but not those that reading /proc opens.
   int ends[2];
   REQUIRE(pipe(ends) == 0);
   CHECK(valueOf(read(), "process_open_fds", {}) == valueOf(before, "process_open_fds", {}) + 2);

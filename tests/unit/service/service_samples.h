@@ -1,5 +1,5 @@
 #pragma once
-// Worlds, and samples of worlds, for the tests of the service.
+// Worlds, and random samples of worlds, for the tests of the service.
 
 #include <sgm/sgm.h>
 
@@ -19,7 +19,7 @@
 
 namespace sgm::service {
 
-/// Balls around the origin, streamed by an engine's thread between fly() and the end.
+/// A world of balls around the origin, which an engine's thread streams from fly() on.
 class StreamedWorld {
  public:
   explicit StreamedWorld(uint32_t flags = 0) {
@@ -42,13 +42,13 @@ class StreamedWorld {
     stop();
     for (sgm_world* other : others_) sgm_world_destroy(other);
     sgm_field_destroy(field_);
-    // A runtime that is still in use cannot be destroyed, which reveals meshes or worlds that were not released.
+    // A runtime that is still in use cannot be destroyed, so the test finds meshes and worlds that were not released.
     CHECK(sgm_runtime_destroy(runtime_) == SGM_OK);
   }
   StreamedWorld(const StreamedWorld&) = delete;
   StreamedWorld& operator=(const StreamedWorld&) = delete;
 
-  /// Makes another world of the same field, which is destroyed with this object.
+  /// Makes another world of the same field; it is destroyed with this object.
   sgm_world* make(uint32_t flags = 0) {
     sgm_world_desc desc = SGM_WORLD_DESC_INIT;
     desc.top_level = 3;

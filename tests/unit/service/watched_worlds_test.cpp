@@ -24,7 +24,7 @@ std::unique_ptr<WatchedWorlds> makeWatcher(milliseconds period = kSoon) {
   return std::move(*made);
 }
 
-/// Calls question() until it returns true, for at most a minute.
+/// Calls question() until it returns true, for at most a minute. Returns whether it did.
 template <class Question>
 bool comesTrue(const Question& question) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
@@ -103,7 +103,8 @@ TEST_CASE("a world that streams is watched: its figures rise, and its map is wha
   CHECK(told == expected);
   CHECK(map->total == count);
   CHECK(triangles == map->world.measures.value().drawn.triangles);
-  // The finest level first, then by the distance of chunks' middles from the viewer, who is at the origin.
+  // Chunks of the finest level come first, then chunks are ordered by the distance of their middles from the viewer at
+  // the origin.
   const auto far = [](const DrawnChunk& chunk) {
     return std::tuple(chunk.level,
                       std::pow(chunk.x + 0.5, 2) + std::pow(chunk.y + 0.5, 2) + std::pow(chunk.z + 0.5, 2));
@@ -124,7 +125,7 @@ TEST_CASE("a map is gathered once a second, whoever asks for it", "[threads]") {
   streamed.settle();
   const std::optional<WorldMap> soon = worlds->map("balls");
   REQUIRE(soon);
-  // After a longer delay of a busy machine, a new map may have been made already.
+  // If a busy machine took longer, a new map may have been made already.
   if (std::chrono::steady_clock::now() - asked < milliseconds(900)) CHECK(soon->total == 0);
   CHECK(comesTrue([&] { return worlds->map("balls")->total > 0; }));
   CHECK(std::chrono::steady_clock::now() - asked >= milliseconds(900));

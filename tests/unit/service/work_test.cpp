@@ -15,7 +15,7 @@ using http::Request;
 using http::Response;
 using nlohmann::json;
 
-/// An inspector whose inspections end when the test says so.
+/// An inspector that ends its inspections only when the test tells it to.
 class HeldInspector final : public Inspector {
  public:
   Result<void> wouldTake() const override {
@@ -78,7 +78,7 @@ struct Fixture {
     made.fields.push_back({"Host", "localhost"});
     return made;
   }
-  /// The answer that a server would send; nullopt while there is none.
+  /// The answer that a server would send; empty until the port has answered.
   std::shared_ptr<std::optional<Response>> ask(const Request& request, const std::string& body = "") {
     auto answer = std::make_shared<std::optional<Response>>();
     http::Admission admission = work->admit(request);

@@ -58,7 +58,7 @@ TEST_CASE("members are found as a parser finds them") {
       CHECK(OrderedJson::parse(members[at].value) == value);
       ++at;
     }
-    // Also of damaged JSON: the quoted part lies within it.
+    // Tests damaged JSON, too: names and values must lie within the text.
     std::string damaged = text;
     damaged[random() % damaged.size()] = "{}[]\",:\\ "[random() % 9];
     damaged.resize(random() % (damaged.size() + 1));

@@ -21,7 +21,7 @@ namespace {
 
 const std::string kValid = R"({"valid":true,"measures":{"area":1},"preview":{}})";
 
-/// Records the callbacks of an inspector in their order.
+/// Records the callbacks of an inspector in the order of the calls.
 class Told {
  public:
   void began(int job) {
@@ -93,7 +93,7 @@ struct Bench {
   }
 };
 
-/// A script that prints these bytes.
+/// The lines of a script that prints these bytes.
 std::string saying(const TemporaryFolder& folder, const std::string& bytes) {
   return "cat " + makeFile(folder, "said", bytes);
 }
@@ -206,7 +206,7 @@ TEST_CASE("what is no report is not taken for one", "[threads]") {
     CHECK(answer.status == 500);
     CHECK(codeOf(answer) == "validator_crashed");
   }
-  // The same inspector still works afterwards.
+  // The same inspector still works after these failures.
   makeFile(files, "said", framed(kValid));
   CHECK(bench.judge().status == 200);
 }
@@ -287,7 +287,7 @@ TEST_CASE("an inspector that ends tells all who wait, and leaves no process", "[
   bench.inspector->readMasters([&](Inspection said) { bench.told.done(11, std::move(said)); });
   REQUIRE(bench.told.waitForBegun(2));
   const auto start = std::chrono::steady_clock::now();
-  // Two uploads and one request to read the masters run.
+  // Waits until two uploads and one request to read the reference histograms run.
   while (std::ranges::count(contentOf(files.path / "pids"), '\n') < 3 &&
          std::chrono::steady_clock::now() - start < std::chrono::seconds(30))
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -352,7 +352,7 @@ TEST_CASE("masters are read and written by a process too", "[threads]") {
   CHECK(bench.told.allDone()[0].second.status == 200);
   CHECK(bench.told.allDone()[0].second.json == masters);
   CHECK(contentOf(seen) == "--list-masters\n");
-  // If the file of masters does not exist, it is not created.
+  // If the file of reference histograms does not exist, it is not created.
   bench.inspector->writeMasters("{}", [&](Inspection said) { bench.told.done(1, std::move(said)); });
   REQUIRE(bench.told.waitForDone(2));
   CHECK(bench.told.allDone()[1].second.status == 409);
@@ -403,7 +403,8 @@ TEST_CASE("whatever those who are told throw, the inspector goes on", "[threads]
 TEST_CASE("an upload ends where nobody waits for it", "[threads]") {
   const TemporaryFolder files;
   Bench bench(saying(files, framed(kValid)));
-  // This object is destroyed with the callback that holds it, as are an upload's file and a client's reply.
+  // The callback holds this object, as it holds an upload's file and a client's reply; the object is destroyed with the
+  // callback.
   const auto free = std::make_shared<std::atomic<bool>>(false);
   std::shared_ptr<int> reply(new int(0), [&, free](const int* number) {
     delete number;

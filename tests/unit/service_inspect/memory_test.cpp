@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// Counts the callbacks; memory fails only between two of its calls.
+/// Records the callbacks of an inspector. Each callback ends the failures of memory.
 class Told {
  public:
   void tell(Inspection said) {
@@ -73,7 +73,7 @@ TEST_CASE("who waits is told of memory that has run out", "[threads]") {
     REQUIRE(told.waitFor(1));
     CHECK(inspector->counts().failed == 1);
     CHECK(inspector->counts().running == 0);
-    // One job runs; when it ends, there is no memory to answer the next job, not even for an error.
+    // One job runs; when it ends, there is no memory to start the next job, not even to report an error.
     REQUIRE(inspector->inspect(
         uploadOf("x"), [] {},
         [&](Inspection said) {
@@ -95,7 +95,8 @@ TEST_CASE("who waits is told of memory that has run out", "[threads]") {
 TEST_CASE("without memory nothing is queued, and that is said") {
   const TemporaryFolder files;
   const std::unique_ptr<Inspector> inspector = inspectorOf(makeScript(files, "inspect.sh", "exit 3"));
-  // Each allocation of a call fails in turn; those of the inspector's threads count, too, and must be survived as well.
+  // Makes each allocation of a call fail in turn. Allocations of the inspector's threads count as well, and their
+  // failures must be survived, too.
   for (long after = 0; after < 12; ++after) {
     INFO(after);
     Told told;

@@ -117,7 +117,7 @@ TEST_CASE("the last 64 reports are kept, and all that are not finished") {
   for (int i = 0; i < 100; ++i) open.push_back(reports.begin("open", UploadKind::stl, 1));
   CHECK(reports.size() == 100);
   for (const std::string& id : open) CHECK(reports.json(id));
-  // A report that has just been finished can be fetched once, however many jobs wait.
+  // The report that was finished last can be fetched, however many jobs wait.
   reports.finish(open[0], goodInspection());
   CHECK(reports.json(open[0]));
   reports.finish(open[1], goodInspection());

@@ -1,5 +1,5 @@
 #pragma once
-// What programs say that stand for `sgm inspect`.
+// The output of programs that stand for `sgm inspect` in tests.
 
 #include <cstdint>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace sgm {
 
-/// What a process that inspects says: both parts behind their sizes.
+/// The output of an inspecting process: the JSON and the preview, each preceded by its size.
 inline std::string framed(const std::string& json, const std::string& preview = {}) {
   std::string bytes;
   for (const std::string& part : {json, preview}) {

@@ -1,4 +1,4 @@
-// Tests that a store is the same however it was made, and contains each content once.
+// Tests that the bytes of a store do not depend on how it was made, and that it contains each content once.
 
 #include <atomic>
 #include <thread>
@@ -22,7 +22,7 @@ TEST_CASE("a store's bytes do not depend on who baked what, in which order, or h
     CHECK(merged.world.measured.triangles > 10000);
     CHECK(one.bytes() < 12 * merged.world.measured.triangles);
     CHECK(merged.new_bytes == merged.world.pack_bytes);
-    // A second merge finds the work done.
+    // A second merge finds that the first one has done the work.
     CHECK(alone.merge().there_before);
   }
   const std::vector<store::TileKey> tiles = store::tilesOf(region);
@@ -31,7 +31,7 @@ TEST_CASE("a store's bytes do not depend on who baked what, in which order, or h
   for (size_t shard = 0; shard < shards; ++shard) order.push_back(shard);
   std::shuffle(order.begin(), order.end(), random);
   for (const size_t shard : order) {
-    // Each worker only has the information in the folder.
+    // Each worker shares only the contents of the folder with the others.
     const Baking worker(scene.settings(), region, many.path);
     const store::Bakery bakery = worker.bakery();
     const auto costs = store::planOf(bakery, tiles);
@@ -45,7 +45,8 @@ TEST_CASE("a store's bytes do not depend on who baked what, in which order, or h
   }
   const Baking last(scene.settings(), region, many.path);
   const store::Bakery bakery = last.bakery();
-  // A killed worker has left one tile without its record, one record that is truncated, and one pack that is.
+  // Simulates a worker that was killed: it has left one tile without a record, one truncated record, and one truncated
+  // pack.
   const fs::path lost = store::tileFile(bakery.folder, tiles[0]), torn = store::tileFile(bakery.folder, tiles[1]);
   fs::remove(lost);
   const auto refused = last.tryToMerge();
@@ -114,7 +115,7 @@ TEST_CASE("contents that worlds and levels share are stored once, and go when no
   CHECK(shared.world.contents == alone.world.contents);
   CHECK(shared.world.pack_bytes == alone.world.pack_bytes);
   CHECK(store::verify(second.folder, second.file()).problems.count == 0);
-  // A third world shares few chunks; the reported sizes must be only its own.
+  // A third world shares few chunks with the first; the reported sizes must be only its own.
   const CacheFolder apart;
   const Baking third(scenes()[0].settings(), regionOf(scenes()[0], 1, 1), folder.path),
       lonely(scenes()[0].settings(), regionOf(scenes()[0], 1, 1), apart.path);
@@ -156,8 +157,8 @@ TEST_CASE("a pack that two worlds share comes back when one of them is baked aga
       if (removed) {
         fs::remove(file);
       } else {
-        // Copies of a pack may be hard links to one file, so a truncated file is written anew instead of being
-        // shortened in place.
+        // Copies of a pack may be hard links to one file, so the test replaces the file by a truncated one instead of
+        // shortening it in place.
         Bytes bytes = readFile(file);
         bytes.resize(bytes.size() - 3);
         fs::remove(file);
@@ -192,7 +193,7 @@ TEST_CASE("another region of a world does not take the place of the one that is 
   REQUIRE(cleaned);
   CHECK(cleaned->unfinished == 1);
   fs::remove_all(folder.path / "baking" / store::nameOf(other.bakery().job));
-  // Files of a job whose merge was killed are removed.
+  // Removes the files of a job whose merge was killed.
   one.bakeAll();
   fs::rename(one.bakery().folder, one.bakery().folder.string() + store::kMergedEnding);
   one.bakeAll();
@@ -229,7 +230,7 @@ TEST_CASE("who changes a store is alone", "[store]") {
   auto lock = store::StoreLock::take(store);
   REQUIRE(lock);
   CHECK(store::StoreLock::take(store, std::chrono::milliseconds(10)).error().code == Code::busy);
-  // A second user of the lock waits.
+  // A second user of the lock waits until the lock is released.
   std::optional<store::StoreLock> had(std::move(*lock));
   std::atomic<bool> has_gone = false;
   std::thread other([&] {
@@ -259,7 +260,7 @@ TEST_CASE("verification finds what is wrong, and baking again tells other worlds
   REQUIRE(equal);
   CHECK(equal->chunks == 12);
   CHECK(equal->problems.count == 0);
-  // The same index, read as if it belonged to a world with another seed.
+  // Reads the same index as if it belonged to a world with another seed.
   WorldFieldSettings other = scene.settings();
   other.seed += 1;
   const Baking stranger(other, regionOf(scene, 0, 1), folder.path);

@@ -32,7 +32,7 @@ struct File {
   }
 };
 
-/// Reads a random part, and checks its bytes.
+/// Reads a random part of the file, and checks its bytes.
 bool readsRight(BlockCache& cache, const File& file, std::mt19937& random) {
   const uint64_t offset = random() % file.size;
   const size_t bytes = random() % std::min<uint64_t>(file.size - offset, random() % 8 ? 9000 : 900000);

@@ -15,7 +15,7 @@ struct Meshed {
   std::array<store::BorderSums, kChunkParts> borders;
 };
 
-/// All chunks of the region, each part separately, as in a store.
+/// Meshes all chunks of the region, and packs each part separately, as in a store.
 std::vector<std::unique_ptr<Meshed>> meshedRegion(const Excerpt& scene, const store::BakedRegion& region, bool sharp) {
   const Machine machine;
   const WorldField world(scene.settings(), std::pmr::get_default_resource());
@@ -62,7 +62,7 @@ Judged judge(const std::vector<std::unique_ptr<Meshed>>& chunks, const store::Ba
   return judged;
 }
 
-/// Whether a triangle has an edge that other parts or chunks may share.
+/// Whether a triangle has an edge that other parts or other chunks may share.
 bool touchesBorder(const Meshed& chunk, size_t part, size_t triangle) {
   if (part != 0) return true;
   for (size_t k = 0; k < 3; ++k) {
@@ -106,7 +106,7 @@ TEST_CASE("chunks of all levels fit together, and no damage to a border passes",
       const bool at_border = touchesBorder(*chunk, part, triangle);
       const auto first = mesh.indices.begin() + static_cast<ptrdiff_t>(triangle);
       CAPTURE(i, chunk->key.level, part, triangle, at_border);
-      // Neither a triangle's first corner nor the order of triangles matters.
+      // The hashes of the border (BorderSums) do not depend on which corner of a triangle comes first.
       std::rotate(first, first + 1, first + 3);
       CHECK(store::bordersOf(mesh, static_cast<int>(part)) == before);
       const std::array<uint32_t, 3> was{first[0], first[1], first[2]};
@@ -117,21 +117,20 @@ TEST_CASE("chunks of all levels fit together, and no damage to a border passes",
       }
       chunk->borders[part] = store::bordersOf(mesh, static_cast<int>(part));
       const bool shows = chunk->borders[part] != before;
-      // Sharp feature vertices may lie in a face that they do not belong to.
+      // If features are sharp, feature vertices may lie in a face of the chunk without belonging to its border.
       if (!sharp) CHECK(shows == at_border);
       if (shows) {
         const size_t problems = judge(chunks, region).told.size();
         tried[problems != 0] += 1;
-        // A seam of the coarsest level leads to no chunk of the region: its outer border need not fit to anything.
+        // A seam of the coarsest level has no coarser chunk in the region, so nothing needs to match its outer border.
         if (part != 0 && chunk->key.level < 2) CHECK(problems != 0);
       }
       std::copy(was.begin(), was.end(), first);
       chunk->borders[part] = before;
     }
-    // Bodies have a seam or a neighbour at each face, except some faces in the region's border, where they need not fit
-    // to anything.
+    // Bodies have a seam or a neighbour at each face, except in the region's border, where nothing needs to match them.
     CHECK(tried[1] > 4 * tried[0]);
-    // Swaps the borders of two chunks.
+    // If the borders of two chunks are swapped, the check must find it.
     for (unsigned i = 0; i < 4; ++i) {
       const auto [chunk, part] = drawn[random() % drawn.size()];
       const auto [other, same] = drawn[random() % drawn.size()];

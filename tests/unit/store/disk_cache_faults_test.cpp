@@ -54,7 +54,7 @@ std::vector<fs::path> unfinishedIn(const CacheFolder& folder) {
   return parts;
 }
 
-/// Records the notices of a cache.
+/// Records the notices of a disk cache.
 struct Said {
   std::vector<std::string> lines;
   DiskCache::Log log() {
@@ -75,7 +75,7 @@ TEST_CASE("processes share a folder", "[stream][disk]") {
     children.push_back(forked([&] {
       auto cache = DiskCache::open(folder.path, kLimit, {});
       if (!cache) return 100;
-      // On any machine, the threads together store more than fits into the cache.
+      // Continues until more was stored than fits into the cache, on a slow machine as well.
       const auto enough = [&] { return (*cache)->stats().stored > 100; };
       const int wrong = useCache(**cache, i, 300, [&] { return late(0s) && (enough() || late(120s)); });
       return wrong != 0 || enough() ? wrong : 101;
@@ -191,7 +191,7 @@ TEST_CASE("a folder may go and come while its cache is open", "[stream][disk]") 
   CHECK(cache.stats().errors == 0);
   for (int i = 0; i < 3; ++i) cache.put(key, contentOf(key));
   CHECK(cache.stats().errors == 3);
-  writeFile(inner.path / "cache", {});  // replaces the folder by a file
+  writeFile(inner.path / "cache", {});  // replaces the cache's folder by a file
   CHECK(!getFrom(cache, key));
   cache.put(key, contentOf(key));
   CHECK(cache.stats().errors == 5);
@@ -213,7 +213,7 @@ TEST_CASE("a folder that may not be written to serves what it has", "[stream][di
     fs::permissions(folder.path, mode);
   };
   const pid_t child = forked([&] {
-    // The superuser ignores file modes; so the test continues as another user.
+    // The superuser ignores file modes, so the test continues as another user.
     if (geteuid() == 0 && (chown(folder.path.c_str(), 65534, 65534) != 0 || chown(shard.c_str(), 65534, 65534) != 0 ||
                            chmod(folder.path.c_str(), 0755) != 0 || setgid(65534) != 0 || setuid(65534) != 0)) {
       return 1;

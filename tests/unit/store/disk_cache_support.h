@@ -45,7 +45,7 @@ struct CacheFolder {
 
 inline DiskKey keyNumber(uint64_t number) { return {mix64(number + 1), mix64(~number)}; }
 
-/// The path of an entry, as documented in the header.
+/// The path of an entry's file, as documented in disk_cache.h.
 inline fs::path fileOf(const CacheFolder& folder, const DiskKey& key) {
   char name[40];
   std::snprintf(name, sizeof name, "%016llx%016llx", static_cast<unsigned long long>(key.high),
@@ -81,7 +81,7 @@ inline void writeFile(const fs::path& path, const Bytes& bytes) {
   REQUIRE(out.flush());
 }
 
-/// Sets the last use of a file to `seconds` ago.
+/// Sets the time of a file's last use to `seconds` ago.
 inline void age(const fs::path& file, std::chrono::seconds seconds) {
   fs::last_write_time(file, fs::file_time_type::clock::now() - seconds);
 }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr uint64_t kPlenty = uint64_t{1} << 30;
 
-/// Writes a file in place of a key's entry, and expects a miss that is counted, and that the file is removed.
+/// Writes a file in place of a key's entry. Expects a counted miss, and that the cache removes the file.
 void expectDamaged(DiskCache& cache, const CacheFolder& folder, const DiskKey& key, const Bytes& file) {
   writeFile(fileOf(folder, key), file);
   const DiskCacheStats before = cache.stats();
@@ -133,7 +133,7 @@ TEST_CASE("a false size, another's entry or no entry at all is a miss", "[stream
   CHECK(!getFrom(*cache, key));
   CHECK(!fs::exists(fileOf(folder, key)));
   CHECK(cache->stats().errors == 0);
-  // A folder at an entry's path is never removed, so the entry can never be stored.
+  // The cache never removes a folder at an entry's path, so this entry can never be stored.
   fs::create_directory(fileOf(folder, key));
   CHECK(!getFrom(*cache, key));
   cache->put(key, zeros);
@@ -160,12 +160,12 @@ TEST_CASE("the longest unused go first", "[stream][disk]") {
       age(fileOf(folder, keyNumber(by_age[i])), std::chrono::seconds(1000 - i));
     }
     entry_bytes = folder.bytes() / kEntries;
-    // The two oldest entries are used again.
+    // The two oldest entries are read again, so that they count as recently used.
     for (uint64_t i = 0; i < 2; ++i) REQUIRE(getFrom(*cache, keyNumber(by_age[i])));
   }
   const auto cache = openCache(folder, kEntries * entry_bytes + entry_bytes / 2);
   cache->put(keyNumber(1000), content);
-  // An eighth of the limit is freed, and the new entry is stored in it.
+  // The cache frees an eighth of its limit, and then stores the new entry.
   const uint64_t evicted = cache->stats().evicted;
   CHECK(evicted == 3);
   for (uint64_t i = 0; i < kEntries; ++i) {
@@ -210,7 +210,7 @@ TEST_CASE("a folder that is far over the limit is brought below it, set by set",
   for (uint64_t i = 0; i < 400; ++i) {
     const fs::path file = fileOf(folder, keyNumber(i));
     writeFile(file, {});
-    fs::resize_file(file, 1 << 18);  // a sparse file, which takes no room on the disk
+    fs::resize_file(file, 1 << 18);  // a sparse file, which takes no space on the disk
     age(file, std::chrono::seconds(1 + i));
     before += 1 << 18;
   }
@@ -228,7 +228,7 @@ TEST_CASE("a folder that is far over the limit is brought below it, set by set",
   CHECK(cache->stats().stored == 64);
   for (uint64_t i = 0; i < 64; ++i) CHECK(getFrom(*cache, {i << 58, i}));
   for (const fs::path& file : foreign) CHECK(fs::exists(file));
-  // The latest entries of each set are left; so these 60 still exist.
+  // The latest entries of each set were not evicted, so these 60 still exist.
   size_t late = 0;
   for (uint64_t i = 0; i < 60; ++i) late += fs::exists(fileOf(folder, keyNumber(i)));
   CHECK(late == 60);
@@ -240,7 +240,7 @@ TEST_CASE("what a killed process was writing is in nobody's way for long", "[str
   const DiskKey key = keyNumber(1), other{keyNumber(1).high, 7};
   const fs::path part = fileOf(folder, key).string() + ".part", left = fileOf(folder, other).string() + ".part";
   const Bytes content = contentOf(key);
-  // The other process may still be alive, and would write the same contents, so its file is left alone.
+  // Another process may still be writing this file, with the same contents, so the file is left alone.
   writeFile(part, noise(1, 100));
   cache->put(key, content);
   CHECK(!getFrom(*cache, key));
@@ -249,7 +249,7 @@ TEST_CASE("what a killed process was writing is in nobody's way for long", "[str
   cache->put(key, content);
   CHECK((getFrom(*cache, key) == content));
   CHECK(!fs::exists(part));
-  // Unfinished files of entries that nobody requests again are removed when their set is listed.
+  // An unfinished file of an entry that is never requested again is removed when its set is listed.
   writeFile(left, noise(1, 100));
   age(left, 1h);
   openCache(folder, 1 << 20)->put(keyNumber(2), content);
@@ -267,7 +267,8 @@ TEST_CASE("threads share a cache", "[stream][disk][threads]") {
     threads.emplace_back([&, t] {
       std::mt19937 random(t);
       for (unsigned i = 0; i < rounds(500); ++i) {
-        const DiskKey key = keyNumber(random() % 200);  // in total, twice as much as the limit allows
+        const DiskKey key = keyNumber(random() % 200);  // the processes store twice as much in total as the limit
+                                                        // allows
         const auto got = getFrom(*cache, key);
         ++gets;
         if (got && *got != contentOf(key)) ++wrong;

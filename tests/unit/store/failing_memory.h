@@ -1,5 +1,5 @@
 #pragma once
-// Memory that runs out on request.
+// A memory resource that runs out on request.
 
 #include <atomic>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace sgm {
 
-/// Fails after `until` allocations: the next `failures` allocations throw std::bad_alloc.
+/// Memory that fails after `until` allocations: the next `failures` allocations throw std::bad_alloc.
 class Failing final : public std::pmr::memory_resource {
  public:
   std::atomic<int64_t> until = INT64_MAX, failures = 0, live = 0;

@@ -42,7 +42,7 @@ class MarkedJobs final : public JobSystem {
   std::unique_ptr<JobSystem> jobs_;
 };
 
-/// Runs every job within submit, on the calling thread.
+/// A job system that runs every job within submit(), on the calling thread.
 class InlineJobs final : public JobSystem {
  public:
   unsigned concurrency() const override { return 1; }
@@ -50,14 +50,14 @@ class InlineJobs final : public JobSystem {
   void submit(void (*function)(void*), void* argument, int) override { function(argument); }
 };
 
-/// A store that claims to be on a server, and answers slowly.
+/// A store in a folder that behaves like a slow server.
 class FarFolder final : public BakedParts {
  public:
   explicit FarFolder(std::shared_ptr<BakedParts> parts) : parts_(std::move(parts)) {}
 
-  /// Maximum time of an answer in milliseconds; below 0: there is no answer until reading is stopped.
+  /// Maximum time of an answer in milliseconds; if negative, a request gets no answer until reading is stopped.
   std::atomic<int> slowness = 0;
-  /// Number of first requests that are never answered.
+  /// Number of requests, from the first on, that are never answered.
   std::atomic<int> to_hang = 0;
   std::atomic<size_t> asked = 0, answers = 0, asked_by_jobs = 0;
 
@@ -104,7 +104,7 @@ class FarFolder final : public BakedParts {
   bool stopped_ = false;
 };
 
-/// The chunks of a Scene (streaming_support.h) around its viewer, except those beyond the region's border.
+/// A store with the chunks that a Scene (streaming_support.h) shows around its viewer, up to the border of the region.
 struct BakedScene {
   CacheFolder folder;
 
@@ -116,7 +116,7 @@ struct BakedScene {
     baking.bakeAll();
     baking.merge();
   }
-  /// Opens the store. Each world needs an object of its own, because it stops reading at its end.
+  /// Opens the store. Each world needs its own FarFolder, because a world stops the reading at its end.
   std::shared_ptr<FarFolder> open() const { return std::make_shared<FarFolder>(sourceAt(folder.path.string())); }
 };
 
@@ -149,7 +149,7 @@ TEST_CASE("requests of a far store wait for their looks, in their order, and for
     constexpr size_t kPrefetchers = 4;
     WorkQueue queue(kPrefetchers);
     Clock::time_point now{std::chrono::hours(1)};
-    std::vector<WorkItem> model;  // the most urgent last, as in the queue
+    std::vector<WorkItem> model;  // in the order of the queue: the most urgent item last
     std::vector<std::shared_ptr<Look>> looking;
     Clock::time_point progress{};
     const auto sight = [&] { return std::span(model).last(std::min(WorkQueue::kSight, model.size())); };
@@ -258,7 +258,7 @@ TEST_CASE("a far store is asked by no job, and what it has is drawn", "[store][t
 
 TEST_CASE("a store that does not answer, or slowly, holds up no viewer, whoever runs the jobs", "[store][threads]") {
   const BakedScene baked;
-  // The store never answers (-1), or answers slowly: one part in up to three frames.
+  // The store never answers (-1), or takes up to 60 ms for each part.
   for (const int slowness : {-1, 60}) {
     for (const int kind : {0, 1, 2, 3}) {
       CAPTURE(slowness, kind);
@@ -270,7 +270,7 @@ TEST_CASE("a store that does not answer, or slowly, holds up no viewer, whoever 
       if (kind == 3) jobs = std::make_unique<MarkedJobs>(std::make_unique<InlineJobs>());
       Scene scene(std::move(jobs), caveText(), with(far));
       Engine engine;
-      // The viewer moves, so that each frame has its own plan.
+      // The viewer moves, so that each frame gets a new plan.
       Viewer viewer = viewerAt(64, 64, 64);
       for (int frame = 0; frame < 2000 && scene.world->stats().planner.meshed < 200; ++frame) {
         viewer.position[0] += 0.02 * kUnitsPerMetre;
@@ -291,7 +291,7 @@ TEST_CASE("a store that does not answer, or slowly, holds up no viewer, whoever 
 
 TEST_CASE("requests that hang cost their own lookers and no more", "[store][threads]") {
   const BakedScene baked;
-  // With few concurrent requests, one thread that blocks them has a visible effect.
+  // With few concurrent requests, a single thread that hangs has a visible effect.
   const auto hitsOfWalk = [&](std::shared_ptr<BakedParts> parts) {
     WorldSettings settings;
     settings.baked = parts;
@@ -326,7 +326,7 @@ TEST_CASE("a world that has no room for what is wanted says so, whatever its sto
     settings.mesh_bytes = size_t{21} << 20;
     settings.lod.finest_distance = 60.0 * kUnitsPerMetre;
     Scene scene(markedJobs(2), caveText(), settings);
-    // An engine that takes meshes and never releases them.
+    // Keeps all meshes, as an engine that never releases them.
     std::vector<std::shared_ptr<const ChunkSurface>> kept;
     const auto waitAndTake = [&] {
       const Result<void> waited = scene.world->waitIdle();
@@ -345,7 +345,7 @@ TEST_CASE("a world that has no room for what is wanted says so, whatever its sto
     }
     REQUIRE(!waited);
     CHECK(waited.error().code == Code::limit);
-    // Loading continues when there is memory again.
+    // When the meshes are released, there is memory again, and loading continues.
     kept.clear();
     viewer = viewerAt(64, 64, 64);
     REQUIRE(scene.world->setViewers({&viewer, 1}));

@@ -20,15 +20,15 @@ namespace sgm {
 
 enum class Fault {
   none,
-  no_ranges,    ///< sends the whole file instead of a range
-  other_range,  ///< sends another range
-  cut_off,      ///< sends fewer bytes than it announces
+  no_ranges,    ///< sends the whole file instead of the requested range
+  other_range,  ///< sends a different range than the requested one
+  cut_off,      ///< sends fewer bytes than the header announces
   endless,      ///< sends more bytes than were requested
   damaged,      ///< sends wrong bytes
   fails,        ///< answers 503
   refuses,      ///< answers 403
-  is_silent,    ///< does not answer
-  hangs_up,     ///< closes the connection
+  is_silent,    ///< accepts requests, but does not answer
+  hangs_up,     ///< closes the connection instead of answering
 };
 
 class FileServer {
@@ -158,7 +158,7 @@ class FileServer {
   uint16_t port_ = 0;
   std::atomic<bool> is_stopped_ = false;
   std::thread accepting_;
-  std::mutex mutex_;  ///< protects both members below, until all threads have ended
+  std::mutex mutex_;  ///< protects the members below until all threads have ended
   std::vector<int> open_;
   std::vector<std::thread> serving_;
 };

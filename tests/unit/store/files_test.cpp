@@ -75,7 +75,7 @@ TEST_CASE("a tile's record comes back as it was written, and bytes that are none
     CHECK(!store::decodeTile(std::span(bytes).first(bytes.size() - 1)));
     bytes.push_back({});
     CHECK(!store::decodeTile(bytes));
-    // Random bytes in a record must not lead a reader outside of it.
+    // Random bytes in a record must not make a reader access bytes outside of the record.
     bytes.pop_back();
     for (int damage = 0; damage < 40; ++damage) bytes[random() % bytes.size()] = static_cast<std::byte>(random());
     if (const auto odd = store::decodeTile(bytes)) {
@@ -108,7 +108,7 @@ struct RandomIndex {
     bytes = readFile(file);
   }
 
-  /// Whether the whole index can be read. as_written: is set to whether it equals the written one.
+  /// Whether the whole index can be read. as_written receives whether the result equals the written index.
   bool canBeRead(bool& as_written) const {
     const auto index = store::readIndex(BytesAsFile(bytes));
     if (!index) return false;
@@ -156,7 +156,7 @@ TEST_CASE("an index whose numbers are wrong on purpose is refused", "[store]") {
   std::mt19937 random(static_cast<uint32_t>(seed));
   const CacheFolder folder;
   const RandomIndex index(random, folder.path / "index");
-  // The numbers after the world's hash: the box, two levels, the cell; checksums are recomputed.
+  // Replaces one of the numbers after the world's hash (the box, two levels, the cell), and corrects the checksum.
   const auto with = [&](size_t number, int32_t value) {
     Bytes bytes = index.bytes;
     std::byte* end = bytes.data() + bytes.size() - store::kIndexEnd;
@@ -171,12 +171,12 @@ TEST_CASE("an index whose numbers are wrong on purpose is refused", "[store]") {
     for (const int32_t value : {kLeast, -1, 0, kMost}) {
       CAPTURE(number, value);
       const auto read = with(number, value);
-      // A changed corner is accepted if the number of tiles stays the same.
+      // A changed corner of the box is accepted if the number of tiles stays the same.
       CHECK((read ? number < 6 && store::countTiles(read->region) == index.records.size()
                   : read.error().code == Code::bad_input));
     }
   }
-  // The place in the directory of the first tile's entry, and of its record.
+  // Damages the first tile's entry in the directory: the tile's place, or the position of its record.
   const size_t directory = index.bytes.size() - store::kIndexEnd - 40 * index.records.size();
   for (const size_t at : {size_t{0}, size_t{4}, size_t{8}, size_t{12}, size_t{16}, size_t{24}, size_t{28}}) {
     CAPTURE(at);
@@ -204,7 +204,7 @@ TEST_CASE("a folder that is no store, or one of another version, stays as it is"
   writeFile(store.root() / "format", text);
   CHECK(store.make().error().message.find("sgm store 99") != std::string::npos);
   CHECK(!store::openStores(std::array{store.root().string()}, {}, std::pmr::get_default_resource()));
-  // The folder as a worker leaves it that was killed while it created a store.
+  // The folder as a worker leaves it if it is killed while it creates a store.
   writeFile(folder.path / "begun" / "format.sgm-part0", text);
   CHECK(store::Folder(folder.path / "begun").make());
   writeFile(folder.path / "other" / "file", text);

@@ -1,4 +1,4 @@
-// Stores that version 0.2 has baked still serve their worlds.
+// Tests that stores which version 0.2 has baked still serve their worlds.
 
 #include "store_support.h"
 #include "world/version_0_2.h"
@@ -25,7 +25,7 @@ struct FormerStore {
   }
 };
 
-/// Meshes all chunks of the store's region with the source, and compares them with derived ones.
+/// Meshes all chunks of the store's region with parts from the store, and compares them with derived chunks.
 void compare(const WorldFieldSettings& settings, const store::BakedRegion& region, BakedParts& source) {
   const Machine machine;
   const WorldField world(settings, std::pmr::get_default_resource());
@@ -52,7 +52,7 @@ TEST_CASE("a world streams from a store that version 0.2 has baked", "[store]") 
   CHECK(source->stats().hits > 2);
   CHECK(source->stats().misses == 0);
   CHECK(told.messages.empty());
-  // It is another world's if the grammar says something else.
+  // If the grammar differs, the store belongs to another world.
   const uint64_t hits = source->stats().hits;
   compare(formerWorld("box(3m"), former.region(), *source);
   CHECK(source->stats().hits == hits);

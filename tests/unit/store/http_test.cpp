@@ -34,7 +34,7 @@ struct Baked {
     }
   }
 
-  /// The number of parts that differ from the expected ones.
+  /// The number of parts from `source` that differ from the expected ones.
   size_t unlike(BakedParts& source, DiskCache* cache = nullptr, size_t stride = 1) const {
     ChunkMesher mesher = baking.machine.mesher(baking.world, cache);
     mesher.baked = &source;
@@ -68,7 +68,7 @@ TEST_CASE("a store on a server is read as one in a folder", "[store][threads]") 
   CHECK(far->stats().bytes == near->stats().bytes);
   CHECK(far->stats().misses + far->stats().errors == 0);
   CHECK(told.messages.empty());
-  // Parts are read ahead in blocks: there are far fewer requests than parts.
+  // The source reads ahead in blocks, so there are far fewer requests than parts.
   CHECK(server.requests < 40);
   CHECK(far->isFar());
   CHECK(!near->isFar());
@@ -133,7 +133,7 @@ TEST_CASE("whatever a server does, chunks are as they would be derived, which is
   struct Case {
     Fault fault;
     const char* message;
-    bool is_away;  ///< the server is not contacted for a while afterwards
+    bool is_away;  ///< whether the server is not contacted for a while after the fault
   };
   for (const Case& c :
        {Case{Fault::no_ranges, "ignores range requests", false},
@@ -144,7 +144,7 @@ TEST_CASE("whatever a server does, chunks are as they would be derived, which is
         Case{Fault::refuses, "status 403", false}, Case{Fault::is_silent, "cannot be read (", true},
         Case{Fault::hangs_up, "cannot be read (", true}}) {
     for (const bool at_once : {true, false}) {
-      // Detecting a silent server takes seconds, so it is tested only once.
+      // The detection of a silent server takes seconds, so it is tested only once.
       if (c.fault == Fault::is_silent && !at_once) continue;
       CAPTURE(static_cast<int>(c.fault), at_once);
       FileServer server(baked.folder.path);
@@ -153,7 +153,7 @@ TEST_CASE("whatever a server does, chunks are as they would be derived, which is
       if (!at_once) {
         ChunkMesher mesher = baked.baking.machine.mesher(baked.baking.world, nullptr);
         mesher.baked = source.get();
-        // The index has been read, and most parts are still to be loaded.
+        // Reads the index with this request; most parts are read later, when the server fails.
         ChunkRequest uniform;
         uniform.key = {0, {baked.requests[0].key.at.x, baked.requests[0].key.at.y, baked.requests[0].key.at.z}};
         uniform.seams = 0;
@@ -163,7 +163,7 @@ TEST_CASE("whatever a server does, chunks are as they would be derived, which is
       }
       server.fault = c.fault;
       CHECK(baked.unlike(*source) == 0);
-      // Files of one block are read completely even without ranges.
+      // A file of a single block can be read completely without range requests.
       if (c.fault == Fault::no_ranges && !at_once) continue;
       REQUIRE(!told.messages.empty());
       for (const std::string& message : told.messages) {
@@ -219,7 +219,7 @@ TEST_CASE("nobody waits for a silent server once reading is stopped", "[store][t
   const auto stopped = std::chrono::steady_clock::now();
   source->stop();
   reader.join();
-  // The request's timeout is four seconds; libcurl checks for cancellation once a second.
+  // The request would time out after four seconds, but libcurl checks for cancellation once a second.
   CHECK(std::chrono::steady_clock::now() - stopped < std::chrono::milliseconds(3500));
   unlike += baked.unlike(*source);
   CHECK(unlike == 0);
@@ -300,7 +300,7 @@ TEST_CASE("an outage is told once a minute, and rests grow until it has been wel
   pass(1);
   CHECK(outage.failed(early, now));
   CHECK(!outage.failed(early, now));
-  // A request that was begun before the failure tells nothing about the present.
+  // The answer to a request that began before the failure does not show that the server works again.
   CHECK(!outage.answered(early, now));
   for (double rest : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 60.0, 60.0}) {
     CAPTURE(rest);
@@ -321,7 +321,8 @@ TEST_CASE("an outage is told once a minute, and rests grow until it has been wel
   pass(0.1);
   CHECK(outage.answered(begun, now));
   CHECK(outage.look(now) == Look::there);
-  // A failure soon after: reported, since the last report was long ago; the server is not tried again at once.
+  // A failure soon after an answer is reported, because the last report was long ago; the server is not tried again at
+  // once.
   begun = now;
   pass(0.1);
   CHECK(outage.failed(begun, now));
@@ -338,7 +339,7 @@ TEST_CASE("an outage is told once a minute, and rests grow until it has been wel
   CHECK(outage.failed(begun, now));
   pass(1.1);
   CHECK(outage.look(now) == Look::find_out);
-  // A server that fails repeatedly is not reported each time.
+  // Repeated failures of a server are not all reported.
   begun = now;
   pass(0.1);
   CHECK(outage.answered(begun, now));

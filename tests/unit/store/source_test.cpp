@@ -35,11 +35,11 @@ TEST_CASE("a chunk from a store is what it would have been derived to, with edit
       CAPTURE(sharp, i);
       const auto edits = i % 3 == 2 ? randomEdits(random, scene, 10) : nullptr;
       ChunkRequest request = randomRequest(random, scene);
-      // The parts that a streamed world most often requests.
+      // Requests of coarse levels mostly omit anchors and signs, as those of a streamed world do.
       if (request.key.level != 0 && i % 4 != 0) request.anchors = request.signs = false;
       const bool as_baked =
           !edits && !request.outermost && (request.key.level == 0 || (!request.anchors && !request.signs));
-      // A world of which nothing is derived yet.
+      // A world that has derived nothing yet.
       const WorldField fresh(scene.settings(), std::pmr::get_default_resource());
       ChunkMesher derived = baking.machine.mesher(baking.world, nullptr),
                   stored = baking.machine.mesher(fresh, nullptr);
@@ -208,7 +208,7 @@ TEST_CASE("a store whose memory gives out, anywhere, gives what it should once t
           REQUIRE(opened);
           source = *opened;
         } catch (const std::bad_alloc&) {
-          // As the caller of any of our functions would.
+          // Tries again, as a caller of a function that throws std::bad_alloc may do.
         }
       }
       ChunkMesher mesher = baking.machine.mesher(baking.world, nullptr);

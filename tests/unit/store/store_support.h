@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// 64 m of the cave at two levels: 8 x 8 x 8 chunks of 8 m, and 4 x 4 x 4 chunks of 16 m.
+/// For the cave, 64 m at two levels: 8 x 8 x 8 chunks of 8 m, and 4 x 4 x 4 chunks of 16 m.
 inline store::BakedRegion regionOf(const Excerpt& scene, int first_level, int last_level) {
   return {scene.box, first_level, last_level, scene.cell};
 }

@@ -1,4 +1,4 @@
-// Tests that the tiles of a region contain each chunk once, and the shards each tile.
+// Tests that the tiles of a region contain each chunk once, and that the shards contain each tile once.
 
 #include <set>
 
@@ -47,7 +47,7 @@ TEST_CASE("a region's tiles have each of its chunks once", "[store]") {
         CHECK(chunks.insert(chunk).second);
       }
     }
-    // Each tile lies in the region, and their number is right.
+    // The tiles contain the right number of chunks.
     uint64_t count = 0;
     for (int level = region.first_level; level <= region.last_level; ++level)
       count += countChunks(region.box, int64_t{region.finest_cell} << level);

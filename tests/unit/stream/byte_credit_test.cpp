@@ -1,4 +1,5 @@
-// Tests the byte budgets of updates: they are kept, but at least one item is handed over.
+// Tests the byte budgets of updates: a run of updates delivers at most its budgets and one item more, and all items are
+// delivered in the end.
 
 #include <limits>
 #include <random>
@@ -21,12 +22,12 @@ TEST_CASE("any updates in a row hand over at most their budgets and one item, an
     const uint64_t budget = 1 + random() % (uint64_t{1} << (1 + random() % 20));
     const bool varies = random() % 2 == 0;
     ByteCredit credit;
-    std::vector<uint64_t> given{0}, budgets{0};  // sums up to each update
+    std::vector<uint64_t> given{0}, budgets{0};  // sums of all bytes and of all budgets up to each update
     size_t next = 0;
-    // Each update spends its budget, unless nothing is waiting; this bounds the number of updates.
+    // Each update spends its budget unless no item is waiting, which bounds the number of updates.
     const uint64_t max_updates = all / std::max<uint64_t>(1, varies ? budget / 2 : budget) + 2 * items.size() + 2;
     for (uint64_t updates = 0; next < items.size(); ++updates) {
-      if (updates > 4000) break;  // tiny budgets only take long and test nothing new
+      if (updates > 4000) break;  // tiny budgets only take more time, and test nothing new
       REQUIRE(updates <= 8 * max_updates);
       const uint64_t now = varies ? 1 + random() % budget : budget;
       credit.begin(now);

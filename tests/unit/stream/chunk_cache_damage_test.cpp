@@ -33,7 +33,7 @@ TEST_CASE("damaged files are missed, and made again", "[stream][disk]") {
     const uint64_t damaged = cache->stats().damaged;
     look();
     CHECK(cache->stats().damaged - damaged == files.size());
-    // Damaged files were replaced by the original contents.
+    // The damaged files were replaced by files with the original contents.
     for (size_t f = 0; f < files.size(); ++f) CHECK((readFile(files[f]) == whole[f]));
     look();
     for (const fs::path& file : folder.files()) fs::remove(file);
@@ -81,7 +81,7 @@ TEST_CASE("an entry that is whole but says what meshing did not is missed, and m
       cut.resize(random() % cut.size());
       miss(part, cut, 1);
     }
-    // Flips any bit of vertices and triangles; the data after them is checked only by the hash of the file.
+    // Flips any bit of the vertices and triangles; only the file's hash protects the data after these.
     const size_t mesh_at = (6 + 7 * 6) * 4;
     const size_t mesh_bytes = plain.surface.mesh.ranges[0].vertex_count * sizeof(Vertex) +
                               plain.surface.mesh.ranges[0].index_count * sizeof(uint32_t);
@@ -90,7 +90,7 @@ TEST_CASE("an entry that is whole but says what meshing did not is missed, and m
     miss(0, changed, 1);
   }
 
-  // Checks of a decoded part that are made after the codec's own.
+  // These checks of a decoded part come after those of the codec.
   const ChunkPart good = *decodeChunkPart(contents[0], 0, *inputs, std::pmr::get_default_resource());
   const auto decodes = [&](const ChunkPart& p, int as = 0, const ChunkRequest* asked = nullptr) {
     const Bytes bytes = encodeChunkPart(as, p.mesh, p.anchors, p.voids, std::pmr::get_default_resource());

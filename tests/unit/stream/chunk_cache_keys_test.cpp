@@ -39,7 +39,7 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
   ++other.finest_cell;
   CHECK(changes(other));
 
-  // Changes each number in the grammar slightly.
+  // Changes each number in the grammar slightly, one after the other.
   const std::string text = yardstick("cave.sgm");
   size_t numbers = 0;
   for (size_t at = text.find("sgm 1;") + 6; at < text.size(); ++at) {
@@ -55,7 +55,7 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
     changed.insert(end, fraction ? "000001" : ".000001");
     at = end;
     CompileResult compiled = compileGrammar(changed, "test.sgm");
-    if (!compiled.program) continue;  // the number is in a comment, is a count, or the proof of reach fails
+    if (!compiled.program) continue;  // the number is in a comment, is a count, or makes the proof of reach fail
     ++numbers;
     other = settings;
     other.program = compiled.program;
@@ -69,7 +69,7 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
   }
   CHECK(numbers > 20);
 
-  // Changes in comments and layout only.
+  // Changes only the comments and the layout of the grammar.
   other = settings;
   other.program =
       compileGrammar(replaced(text, "rule Chamber(r) {", "// tall\n\n rule  Chamber( (r)\n) {"), "b").program;
@@ -83,7 +83,7 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
   other.on_notes = [](const GrammarChunk&) {};
   CHECK(!changes(other));
 
-  // Changes of the request.
+  // Changes the request.
   const auto asks = [&](int part, const std::function<void(ChunkRequest&)>& change) {
     ChunkRequest changed = request;
     change(changed);
@@ -101,7 +101,7 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
     CHECK(asks(part, [](ChunkRequest& r) { r.outermost = true; }) == (part != 0));
   }
 
-  // A world made from a given cell has no key, since its contents are not known from its settings.
+  // A world that is made from a derived cell has no key, because its settings do not determine its contents.
   const auto alone = std::make_shared<const DerivedCell>(GrammarChunk(), std::pmr::get_default_resource());
   CHECK(!ChunkPartInputs::of(WorldField(settings, alone, std::pmr::get_default_resource()), request, nullptr));
 }
@@ -147,18 +147,19 @@ TEST_CASE("the brushes that show around a part are in its key, and no others", "
   CHECK(isNew([](Brush& b) { ++b.material; }));
   CHECK(isNew([](Brush& b) { ++b.tag; }));
   CHECK(isNew([](Brush& b) { ++b.from.x; }));
-  CHECK(!isNew([](Brush& b) { ++b.to.x; }));  // the second end of a ball is unused
+  CHECK(!isNew([](Brush& b) { ++b.to.x; }));  // a ball does not use the second point of its brush
   Brush cut = ball;
   cut.cut = true;
   CHECK(inputs(0, {ball, cut}) != inputs(0, {cut, ball}));
 
-  // A body depends on edits within two cells of its own level, a seam on those within two cells of the next level.
+  // A body depends on edits within two cells of its own level, and a seam on edits within two cells of the next coarser
+  // level.
   Brush near = ball;
   near.from.x = box.lo.x - ball.radius - 3 * world.cellAt(0);
   CHECK(inputs(0, {near}) == none);
   CHECK(inputs(1, {near}) != seam_none);
   CHECK(inputs(1, {near}, 1, true) == inputs(1, {}, 1, true));
-  // A brush too thin for the coarser level, where it is left out.
+  // The coarser level omits a brush that is too thin for it.
   Brush thin = near;
   thin.radius = world.cellAt(0) * 3 / 4;
   thin.from.x = box.lo.x - thin.radius - 3 * world.cellAt(0);

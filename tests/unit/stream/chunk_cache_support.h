@@ -12,7 +12,7 @@ namespace sgm {
 
 inline constexpr uint64_t kAmple = uint64_t{1} << 30;
 
-/// A grammar's world, and a box in it with many surfaces.
+/// A grammar's world, and a box in it that contains much surface.
 struct Excerpt {
   std::string grammar;
   int32_t cell;
@@ -33,7 +33,7 @@ inline const std::vector<Excerpt>& scenes() {
   return all;
 }
 
-/// Everything that meshing needs, except the field.
+/// Everything that meshing needs, except the field: threads and a backend.
 struct Machine {
   std::unique_ptr<JobSystem> jobs = *makeThreadPool(1);
   std::unique_ptr<Backend> backend = *makeBackend({}, *jobs, std::pmr::get_default_resource());
@@ -43,7 +43,7 @@ struct Machine {
   }
 };
 
-/// Meshes a chunk as a streamed world does: parts in a store on a server are searched beforehand.
+/// Meshes a chunk as a streamed world does: if the store is on a server, its parts are fetched before meshing.
 inline Result<MeshedChunk> tryToMesh(const ChunkMesher& mesher, const ChunkRequest& request,
                                      const ChunkSurface* before = nullptr, const EditSnapshot* edits = nullptr) {
   if (mesher.baked == nullptr || !mesher.baked->isFar()) return mesher.mesh(request, before, edits);
@@ -106,7 +106,7 @@ inline uint64_t drawnParts(const ChunkSurface& surface) {
       std::count_if(ranges.begin(), ranges.end(), [](const PackedRange& range) { return range.index_count > 0; }));
 }
 
-/// Whether the chunk had to be sampled, because it could not be proven solid or void.
+/// Whether the chunk must be sampled, because it cannot be proven solid or void.
 inline bool sampled(const Machine& machine, const WorldField& world, const ChunkRequest& request,
                     const EditSnapshot* edits) {
   const auto chunks = meshChunks(world, *machine.backend, *machine.jobs, {&request, 1}, {}, edits);
@@ -132,7 +132,7 @@ inline std::vector<std::byte> inputsOf(const WorldField& world, const ChunkReque
 
 inline ChunkRequest caveRequest() {
   ChunkRequest request;
-  request.key = {0, {14, 11, 11}};  // part of a hall, with the hall's anchor
+  request.key = {0, {14, 11, 11}};  // a part of a hall, with the hall's anchor
   request.signs = request.anchors = true;
   request.seams = 5;
   return request;

@@ -25,18 +25,18 @@ TEST_CASE("a chunk comes out of the cache as it was meshed", "[stream][disk]") {
       const MeshedChunk plain = meshed(machine.mesher(world, nullptr), request, nullptr, edits.get());
       CHECK(same(plain, meshed(machine.mesher(world, cache.get()), request, nullptr, edits.get())));
 
-      // A second process, which has derived nothing, reads what the first one stored on the disk.
+      // Simulates a second process, which has derived nothing, and reads what the first one stored on the disk.
       const auto later = openCache(folder, kAmple);
       const WorldField fresh(scene.settings(), std::pmr::get_default_resource());
       request.coarser = random() % (Neighbourhood{1} << 26);
       CHECK(same(plain, meshed(machine.mesher(fresh, later.get()), request, nullptr, edits.get())));
-      // All parts are found, except those that are proven empty faster than they could be read.
+      // All parts are found in the cache, except those that are proven empty faster than they could be read.
       const bool all = sampled(machine, world, request, edits.get());
       CHECK(later->stats().hits >= (all ? partCount(request) : drawnParts(plain.surface)));
       CHECK(later->stats().hits + later->stats().misses == partCount(request));
       if (all) CHECK(fresh.cacheStats().misses == 0);
 
-      // Further seams, some of which are stored already and some not.
+      // Requests further seams, some of which are stored already.
       ChunkRequest more = request;
       more.body = false;
       more.seams = static_cast<uint8_t>(random() % 64);
@@ -143,7 +143,7 @@ TEST_CASE("a body and each seam are kept apart, for any request", "[stream][disk
   look(1, 3);
   request.body = request.signs = request.anchors = false;
   look(3, 0);
-  // Parts that were not requested have not been meshed and stored.
+  // Parts that were not requested before were neither meshed nor stored.
   request.body = true;
   look(3, 1);
   request.signs = true;
@@ -192,7 +192,7 @@ TEST_CASE("what cannot be kept is meshed as ever", "[stream][disk]") {
   // An edit may use a material that the grammar does not have.
   Brush ball;
   REQUIRE(plain.surface.anchors.size() == 1);
-  ball.from = plain.surface.anchors[0].frame.origin;  // in the air
+  ball.from = plain.surface.anchors[0].frame.origin;  // the brush lies in the air
   ball.radius = 1000;
   ball.material = 900;
   ball.tag = 800;
@@ -235,7 +235,7 @@ TEST_CASE("several threads share a cache, and a small one", "[stream][disk][thre
   }
   for (std::thread& thread : threads) thread.join();
   CHECK(wrong == 0);
-  // An entry that is requested twice in a row is found the second time, even if the cache is much too small.
+  // An entry that is requested twice in succession is found the second time, even if the cache is much too small.
   for (size_t i = 0; i < 2 * requests.size(); ++i) {
     CHECK(same(meshed(machine.mesher(world, cache.get()), requests[i / 2]), plain[i / 2]));
   }
@@ -244,8 +244,8 @@ TEST_CASE("several threads share a cache, and a small one", "[stream][disk][thre
 }
 
 TEST_CASE("the meshing version stands for these bytes", "[stream][disk]") {
-  // If this fails and no sample grammar has changed, cached chunks of earlier versions are wrong: raise
-  // kMeshingVersion, write the reason in CHANGELOG.md, and the new version and sum here.
+  // If this check fails although no sample grammar has changed, cached chunks of earlier versions are wrong: raise
+  // kMeshingVersion, write the reason in CHANGELOG.md, and write the new version and sum here.
   constexpr uint32_t kVersion = 10;
   constexpr uint64_t kSum = 0x4f2730cc0a5e2ea8;
   const Machine machine;

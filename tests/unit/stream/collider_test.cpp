@@ -1,4 +1,4 @@
-// Tests colliders: they have the drawn triangles with an area, for chunks near viewers and no others.
+// Tests colliders: they contain the drawn triangles with an area, for chunks near viewers and for no other chunks.
 
 #include "catch.h"
 #include "rounds.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kColliderDistance = 16.0 * kUnitsPerMetre;
 
-/// Corner positions of the drawn triangles with an area, in the order that a collider must have.
+/// The triangles that a collider must have: the corner positions of the drawn triangles with an area, in order.
 std::vector<std::array<float, 9>> wantedTriangles(const Engine::Shown& shown) {
   const ChunkSurface& surface = *shown.surface;
   const double metres = static_cast<double>(surface.grid.cell) / 256 / kUnitsPerMetre;
@@ -50,8 +50,8 @@ std::vector<std::array<float, 9>> trianglesOf(const Collider& collider) {
   return triangles;
 }
 
-/// Checks that near chunks have a collider that equals what is drawn of them, and far chunks have none; chunks between
-/// may have one.
+/// Checks that chunks near the viewer have a collider that equals their drawn surface, and that far chunks have none;
+/// chunks between may have one.
 void checkColliders(const Engine& engine, const Viewer& viewer) {
   size_t near = 0;
   for (const auto& [key, shown] : engine.shown) {
@@ -141,8 +141,7 @@ TEST_CASE("an update tells of few colliders, of none that has not changed, and t
         }
         if (event.kind == Kind::collider_removed) {
           REQUIRE(given.erase(event.key) == 1);
-          // When a collider is removed, the chunks that replace it must have colliders: at least one of the chunks
-          // drawn there now.
+          // A collider is removed only if at least one of the chunks that are now drawn in its place has a collider.
           size_t near = 0, with = 0;
           for (const auto& [key, surface] : shown) {
             if (!holds(key, event.key) && !holds(event.key, key)) continue;

@@ -27,7 +27,7 @@ constexpr size_t kHead = 40, kMaxRecord = 87;
 struct JournalFolder {
   fs::path path;
   JournalFolder() {
-    // In shared memory if possible: opening a thousand journals on a disk would be slow.
+    // The journals are in shared memory if possible, because opening a thousand journals on a disk would be slow.
     const fs::path memory = "/dev/shm";
     const bool there = access(memory.c_str(), W_OK) == 0;
     std::string name = ((there ? memory : fs::temp_directory_path()) / "sgm_journal_XXXXXX").string();
@@ -49,7 +49,7 @@ void putBytes(const fs::path& path, std::string_view bytes) {
   REQUIRE(out.good());
 }
 
-// `count` brushes of author 1; every fourth operation is an undo of the previous one.
+// Random edits: `count` operations of author 1, every fourth of which undoes the previous one.
 std::vector<EditOperation> someEdits(uint32_t seed, int count) {
   std::mt19937 random(seed);
   EditLog log({1});
@@ -111,7 +111,7 @@ TEST_CASE("a journal gives back what was appended, again and again", "[edits][fi
     CHECK((journal.message.empty() && journal.cut_bytes == 0 && journal.damaged.empty() && journal.left_out == 0));
     journal.journal->append(std::span(all).subspan(from, 5));
     if (from % 16 == 0) REQUIRE(journal.journal->flush());
-    journal.journal->append(std::span(all).subspan(from + 5, 3));  // written to the file when the journal is closed
+    journal.journal->append(std::span(all).subspan(from + 5, 3));  // these are written when the journal is closed
   }
   const OpenedJournal journal = opened(folder.file());
   CHECK(bytesOfAll(journal.operations) == bytesOfAll(all));
@@ -171,7 +171,7 @@ TEST_CASE("a journal with any byte flipped keeps what stood before it, and the d
       CHECK(beginsWith(all, journal.operations));
       CHECK_FALSE(journal.message.empty());
       if (whole + 1 < all.size()) {
-        // Operations after the damage must be saved in another file.
+        // Operations after the damage must be saved in a file of their own.
         REQUIRE_FALSE(journal.damaged.empty());
         CHECK(bytesIn(journal.damaged) == bad);
         CHECK(journal.damaged.filename() == "edits.damaged-" + std::to_string(++aside % 3 == 0 ? 3 : aside % 3));
@@ -183,7 +183,7 @@ TEST_CASE("a journal with any byte flipped keeps what stood before it, and the d
       journal.journal->append(std::span(all).subspan(whole));
     }
     CHECK(bytesOfAll(opened(folder.file()).operations) == bytesOfAll(all));
-    // Three such files exist side by side, and none is overwritten.
+    // Three files of damaged operations may exist together, and none is overwritten.
     if (aside % 3 == 0 && aside > 0) {
       for (int n = 1; n <= 3; ++n) fs::remove(folder.path / ("edits.damaged-" + std::to_string(n)));
     }
@@ -206,7 +206,7 @@ TEST_CASE("a journal of another world, version or kind is refused and left alone
   refused({1, kWorld.seed, kWorld.cell},
           "it belongs to another world, with another grammar, other parameters or other host fields");
   refused({kWorld.grammar, 1, kWorld.cell}, "it belongs to another world, with another seed");
-  // The grammar's hash includes the seed and the cell: if one of these differs, the message names it.
+  // The grammar's hash includes the seed and the cell size: if one of these differs, the message names it.
   refused({1, 1, kWorld.cell}, "it belongs to another world, with another seed");
   refused({kWorld.grammar, kWorld.seed, 1}, "it belongs to another world, with another finest cell");
   std::string other = bytes;
@@ -258,7 +258,7 @@ TEST_CASE("a journal of mostly undone edits is written anew, and shows the same"
     EditLog again({1});
     REQUIRE(again.merge(journal.operations));
     CHECK(again.snapshot()->brushes() == log.snapshot()->brushes());
-    CHECK(again.add(randomBrush(random, {{}, {}}, 50))->id.number == log.size() + 1);  // no number is used twice
+    CHECK(again.add(randomBrush(random, {{}, {}}, 50))->id.number == log.size() + 1);  // numbers are not reused
     // The journal is locked under its new name, too.
     CHECK(EditJournal::open(folder.file(), kWorld).error().code == Code::limit);
   }
@@ -288,8 +288,8 @@ TEST_CASE("a full disk loses nothing that was appended", "[edits][files]") {
       CHECK(static_cast<bool>(first) == (limit == kHead + 520));
       REQUIRE_FALSE(second);
       CHECK(second.error().code == Code::io);
-      // A copy of the file, as if the process were killed now, has all edits except those that were reported as not
-      // written.
+      // A copy of the file, as if the process were killed now, contains all edits except those that were reported as
+      // not written.
       fs::copy_file(folder.file(), folder.path / "killed");
       const std::vector<EditOperation> kept = opened(folder.path / "killed").operations;
       CHECK(beginsWith(all, kept));

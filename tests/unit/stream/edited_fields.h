@@ -1,5 +1,5 @@
 #pragma once
-// Fields of the cave, with other parameters and from other texts.
+// Fields of the cave with other parameters, and fields of edited texts.
 
 #include <memory>
 #include <string>
@@ -20,10 +20,10 @@ inline std::shared_ptr<const WorldField> fieldOf(const std::string& text, const 
   return fieldOf(std::move(settings));
 }
 
-/// The cave with all its layers, and drips that show where cells are half a metre wide.
+/// The cave with all its layers; its drips appear at levels with cells of up to half a metre.
 inline std::string drippingText() { return replaced(yardstick("cave.sgm"), "detail 0.3m", "detail 0.6m"); }
 
-/// Edits of that text as an author makes them.
+/// An edit of drippingText() as an author would make it.
 struct EditedText {
   std::string what, text;
 };

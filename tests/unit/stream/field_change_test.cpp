@@ -1,4 +1,4 @@
-// What differs between two fields is told for every chunk that it changes.
+// Tests FieldChange: it reports every chunk whose content differs between two fields.
 
 #include "catch.h"
 #include "edited_fields.h"
@@ -8,7 +8,7 @@ using namespace sgm;
 
 namespace {
 
-/// All that an engine has of a chunk.
+/// Everything that an engine receives of a chunk.
 struct Content {
   std::vector<ContentHash> hashes;
   std::vector<uint64_t> anchors;
@@ -57,9 +57,9 @@ std::vector<ChunkRequest> randomChunks(std::mt19937& random, const WorldField& f
 }
 static_assert(kChunkCells * kStreamedCell == 1 << 14);
 
-/// Levels with cells of 0.5 to 8 m: the cave's passages are omitted if cells are larger than 4 m.
+/// Number of tested levels, with cells of 0.5 to 8 m: the cave's passages are omitted if cells are larger than 4 m.
 constexpr int kLevels = 5;
-/// Number of tested chunks of a level, half with a sanitizer: most of the time of these tests is spent on meshing them
+/// Number of tested chunks of a level, half as many with a sanitizer: most of the tests' time is spent on meshing these
 /// twice for every changed text.
 size_t chunksOf(int level) { return (rounds(4) < 4 ? 1u : 2u) * (level == 0 ? 30u : 6u); }
 size_t allChunks() {
@@ -68,7 +68,7 @@ size_t allChunks() {
   return all;
 }
 
-/// Compares both fields on random chunks. Returns how many of these must be meshed again.
+/// Compares the contents of both fields in random chunks. Returns how many of the chunks must be meshed again.
 size_t checkChange(std::mt19937& random, const std::shared_ptr<const WorldField>& from,
                    const std::shared_ptr<const WorldField>& to) {
   const FieldChange change(from, to);

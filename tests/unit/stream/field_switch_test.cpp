@@ -1,4 +1,5 @@
-// Another field in a world's place: what it changes is meshed again, and nothing else; every frame shows one field.
+// Tests replacing the field of a streamed world: the changed chunks are meshed again, and no others; every frame shows
+// one field.
 
 #include <chrono>
 #include <thread>
@@ -13,7 +14,7 @@ using namespace sgm;
 
 namespace {
 
-/// The cave with rules that are nested deeper than derivation goes, which is found at once.
+/// The cave with rules that are nested deeper than derivation allows, so that deriving fails at once.
 std::string tooDeepText() {
   return replaced(caveText(), "rule Chamber(r) {",
                   "rule Deep(n) depth 100 -> Leaf(n) { Deep(n + 1); } rule Leaf(n) { sphere(1m); }\n"
@@ -73,7 +74,7 @@ TEST_CASE("every frame shows one field with one state of the edits, and is close
     CHECK(scene.world->stats().edits_drawn == scene.world->stats().edits);
     REQUIRE(log.import(scene.world->exportEdits(log.size())));
     checkFrame(scene, engine, log.snapshot().get(), last.get());
-    // A query asks what is drawn.
+    // A query refers to the drawn field.
     const Result<ContentHash> streamed = scene.world->hashBodies({{60000, 60000, 60000}, {90000, 90000, 90000}}, 0);
     REQUIRE(streamed);
   }
@@ -91,7 +92,7 @@ TEST_CASE("Birger: the sky is edited while it is looked at", "[table4]") {
     return count;
   };
   std::vector<size_t> counts{triangles()};
-  // The author turns two knobs while the viewer goes on; what is drawn is always the sky of one setting.
+  // The author changes two parameters while the viewer moves; every frame shows the sky of one setting.
   const std::pair<const char*, double> turns[] = {{"cover", 0.3}, {"octaves", 2}};
   for (const auto& [knob, value] : turns) {
     const std::shared_ptr<const WorldField> edited = fieldOf(sky, knob, value);
@@ -123,7 +124,7 @@ TEST_CASE("a parameter changes what depends on it alone, and back again gives th
     const auto was = before.find(key);
     if (was == before.end()) continue;
     ++(was->second.surface == shown.surface ? same : other);
-    // Stalactites are a detail of 0.6 m: no other level has any.
+    // Only level 0 has stalactites, which are a detail of 0.6 m, so that other levels do not change.
     if (key.level > 0) CHECK(was->second.surface == shown.surface);
   }
   CHECK(same > 0);
@@ -131,7 +132,7 @@ TEST_CASE("a parameter changes what depends on it alone, and back again gives th
   comeToRest(scene, engine);
   REQUIRE(engine.shown.size() == before.size());
   for (const auto& [key, shown] : engine.shown) {
-    // What is drawn of it: a surface may hold seams that were drawn while the world was on its way.
+    // Compares only the drawn seams: a surface may hold other seams that were drawn before the world came to rest.
     const Engine::Shown& was = before.at(key);
     CHECK(shown.seams == was.seams);
     for (size_t range = 0; range < 7; ++range) {
@@ -139,7 +140,7 @@ TEST_CASE("a parameter changes what depends on it alone, and back again gives th
       CHECK(shown.surface->mesh.ranges[range].hash == was.surface->mesh.ranges[range].hash);
     }
   }
-  // The same field again costs nothing.
+  // Setting the same field again makes no chunk outdated.
   const uint64_t outdated = scene.world->stats().planner.outdated;
   REQUIRE(scene.world->setField(fieldOf(drippingText())));
   REQUIRE(scene.world->waitIdle());
@@ -267,7 +268,7 @@ TEST_CASE("before anything is drawn one field takes another's place, and the nex
   go();
   CHECK_FALSE(fields.begin(progress));
   CHECK(fields.turn().drawn == 1);
-  // One that comes ten times a second would begin everything anew, for ever.
+  // A new field ten times a second would restart the change of fields each time, and none would ever end.
   fields.want(fieldOf(caveText(), "boxy", 0.2));
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   CHECK_FALSE(fields.begin(progress));

@@ -1,4 +1,4 @@
-// Journals of version 0.2 still open, and take the identity of now when they are written anew.
+// Tests that journals of version 0.2 still open, and get the current identity of their grammar when they are rewritten.
 
 #include "base/bytes.h"
 #include "base/checksum.h"
@@ -84,7 +84,7 @@ TEST_CASE("a journal of version 0.2 takes the identity of now when it is written
     CHECK(opened->message.empty());
     REQUIRE(log.merge(opened->operations));
     std::mt19937 random(1);
-    // Of a brush that is undone, shown again and undone again, the last undo is essential.
+    // If a brush is undone, redone and undone again, only the last undo is essential.
     for (int i = 0; i < 75; ++i) {
       const EditId undone = log.undo(log.add(randomBrush(random, IntBox{{}, {}}.grown(1000), 500))->id)->id;
       REQUIRE(log.undo(log.undo(undone)->id));

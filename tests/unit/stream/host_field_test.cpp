@@ -1,5 +1,5 @@
-// Tests a field of the host together with the grammar's: it is closed with it in every frame, the same for all queries,
-// and as exact as its samples.
+// Tests a host's field together with the grammar's: the surface of both is closed in every frame, all queries agree,
+// and the field is as exact as its samples.
 
 #include <atomic>
 #include <cmath>
@@ -43,7 +43,7 @@ HostField hostBall(double x, double y, double z, double radius, float steepness 
                 steepness);
 }
 
-/// A host's field that is solid below hills around a height.
+/// A host's field that is solid below hills of about the given height.
 HostField hills(double height, double phase, float steepness) {
   return hostOf(
       [=](double x, double y, double z) {
@@ -90,14 +90,14 @@ TEST_CASE("a host's hills and the grammar's caves are one closed surface in ever
     above.cut = true;
     above.sample = [inner = above.sample](const SampleLattice& at, std::span<float> values) -> Result<void> {
       if (Result<void> sampled = inner(at, values); !sampled) return sampled;
-      for (float& value : values) value = -value;  // the air above the hills
+      for (float& value : values) value = -value;  // negates the field: what is cut is the air above the hills
       return {};
     };
     above.smooth = random() % 2 == 0 ? 2 * kUnitsPerMetre : 0;
     HostField rock =
         hostBall(96 * kHostMetre, 100 * kHostMetre, 96 * kHostMetre, 7 * kHostMetre, random() % 2 == 0 ? 1.0f : 0.0f);
     rock.label = makeLabel(1, 0);
-    // The bounds hold only a part of the rock, which is cut off at them.
+    // The bounds contain only a part of the rock, which is cut off there.
     rock.bounds = {{90 * kUnitsPerMetre, 90 * kUnitsPerMetre, 90 * kUnitsPerMetre},
                    {101 * kUnitsPerMetre, 120 * kUnitsPerMetre, 120 * kUnitsPerMetre}};
     Scene scene(std::make_unique<LateJobs>(seed), caveText(), {}, {above, rock});
@@ -151,7 +151,7 @@ TEST_CASE("what a host's field is at a place does not depend on the box that ask
     for (int round = 0; round < 12; ++round) {
       const auto at = [&] { return static_cast<int32_t>(random() % 8) - 4; };
       Int3 chunk{at() * edge, at() * edge, at() * edge};
-      // Some chunks lie at an end of the world, which cuts off their cells.
+      // Some chunks lie at the end of the world, which cuts off their samples' cells.
       if (round % 4 == 3) chunk[static_cast<int>(random() % 3)] = random() % 2 == 0 ? INT32_MIN : INT32_MAX - edge;
       const IntBox small{chunk, {chunk.x + edge, chunk.y + edge, chunk.z + edge}};
       const IntBox large = small.grown(static_cast<int32_t>(random() % static_cast<uint32_t>(edge)));
@@ -163,7 +163,7 @@ TEST_CASE("what a host's field is at a place does not depend on the box that ask
       REQUIRE(other);
       std::vector<int32_t> x, y, z;
       for (int i = 0; i < 400; ++i) {
-        // Also points in corners, edges and faces, which belong to several chunks.
+        // Some points are in corners, edges and faces, which belong to several chunks.
         const auto along = [&](int32_t first) {
           return random() % 4 == 0 ? first + edge * static_cast<int32_t>(random() % 2)
                                    : first + static_cast<int32_t>(random() % static_cast<uint32_t>(edge));
@@ -249,7 +249,7 @@ TEST_CASE("rays hit a host's field, as far as it goes in the world") {
   REQUIRE(*hit);
   CHECK((*hit)->position[1] == Approx(5 * kHostMetre).margin(16));
 
-  // Slanting rays through many small cells, with a field of unknown (0) or known (1) steepness.
+  // Oblique rays through many small cells, with a field of unknown (0) or known (1) steepness.
   for (const float steepness : {0.0f, 1.0f}) {
     const WorldField fine = hostedWorld({hostBall(0, 0, 0, 5 * kHostMetre, steepness)}, 102);
     const double side = 40 * kHostMetre;
@@ -265,7 +265,7 @@ TEST_CASE("rays hit a host's field, as far as it goes in the world") {
     CHECK((*nearest)->distance == Approx(4 * kHostMetre).margin(102));
   }
 
-  // Cells that are cut off by the end of the world.
+  // The end of the world cuts off cells of the field's samples.
   const WorldField everywhere = hostedWorld({hills(0, 0, 0)}, 1000);
   for (const int32_t end : {INT32_MIN, INT32_MAX}) {
     const Int3 corner{end, 0, end};

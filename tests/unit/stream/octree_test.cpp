@@ -1,4 +1,4 @@
-// Tests the octree's two rules, the octree for a set of viewers, and steps from one octree to another.
+// Tests the octree's two rules, the octree for a set of viewers, and the steps from one octree to another.
 
 #include <algorithm>
 #include <map>
@@ -26,7 +26,8 @@ int levelAt(const Octree& tree, Int3 at) {
   return level;
 }
 
-/// Number of places in a box where a rule is broken, by testing every pair and every edge of level-0 chunks.
+/// Number of places in a box at which a rule of octrees is broken: tests every pair of neighbours and every edge of
+/// level-0 chunks.
 size_t brokenPlaces(const Octree& tree, int32_t extent) {
   const int32_t side = 2 * extent + 2;
   std::vector<int> levels;
@@ -45,7 +46,7 @@ size_t brokenPlaces(const Octree& tree, int32_t extent) {
           const size_t u = step[(axis + 1) % 3], v = step[(axis + 2) % 3];
           const int here = levels[at], a = levels[at + u], b = levels[at + v], c = levels[at + u + v];
           broken += std::abs(here - a) > 1;
-          // No edge may have two diagonally opposite leaves finer than both others.
+          // At an edge, two diagonally opposite leaves must not both be finer than the other two.
           broken += std::max(here, c) < std::min(a, b) || std::max(a, b) < std::min(here, c);
         }
       }
@@ -200,7 +201,7 @@ TEST_CASE("a step keeps the rules and draws nothing that is not ready, whatever 
     const Octree target = randomTree(random);
     std::map<ChunkKey, uint8_t> wanted;
     makeReady(target, wanted);
-    // Chunks of intermediate nodes, and some additional seams, become ready in random order.
+    // Chunks of intermediate nodes and some additional seams become ready as well, all in random order.
     for (const ChunkKey& node : target.splitNodes()) {
       if (node.level <= kTop && random() % 2) wanted[node] |= static_cast<uint8_t>(random() % 64);
     }

@@ -20,7 +20,7 @@ using Clock = PlanTurns::Clock;
 class CountedJobs final : public JobSystem {
  public:
   explicit CountedJobs(unsigned workers) : workers_(workers) {}
-  unsigned concurrency() const override { return workers_ + 1; }  // the engine's thread counts as one
+  unsigned concurrency() const override { return workers_ + 1; }  // the engine's thread counts, too
   void submit(void (*)(void*), void*, int) override {}
   bool help() override { return false; }
 
@@ -28,12 +28,12 @@ class CountedJobs final : public JobSystem {
   unsigned workers_;
 };
 
-/// Worlds whose viewers move continuously, and which always have chunks to mesh, on workers that run plans first.
+/// Worlds whose viewers move continuously, and which always have chunks to mesh; the workers prefer plans to chunks.
 class Simulation {
  public:
   struct World {
     PlanTurns::Member member;
-    double plan_cost = 0, chunk_cost = 0;  ///< seconds of work
+    double plan_cost = 0, chunk_cost = 0;  ///< seconds of work for one plan, and for one chunk
     bool waits = false, plans = false, again = false;
     double waits_since = 0, longest_wait = 0;
     uint64_t planned = 0, meshed = 0;
@@ -175,7 +175,8 @@ TEST_CASE("planning takes a quarter of the workers' time at most, and no world w
     for (const Simulation::World& world : simulation.worlds()) {
       CHECK(world.planned > 2);
       CHECK(world.meshed > 2);
-      // Between two plans of a world, the debt of all plans is paid once, with a quarter of the meshing time.
+      // Planning gets a quarter of the meshing time, and all worlds take turns. So between two plans of a world, every
+      // world plans once, for which 4 * plans seconds of meshing are needed.
       CHECK(world.longest_wait <= 8 * plans + 0.1);
     }
   }
@@ -214,9 +215,10 @@ TEST_CASE("a worker without work plans at once, whatever is owed") {
     turns.startDue(now);
     CHECK(begun == i);
     turns.endPlan(member, 10);
-    CHECK(std::abs(turns.credit() + 10) < 1e-6);  // the credit of one plan, however many workers were free
+    CHECK(std::abs(turns.credit() + 10) < 1e-6);  // a plan on an idle worker lowers the credit to no less than -10 s
   }
-  // Two workers mesh or are about to.
+  // From here on, both workers are busy: they mesh chunks, or are about to. The 10 s that the last plan took must be
+  // earned by 40 s of meshing.
   turns.setMeshJobs(other, 2);
   turns.request(member);
   turns.startDue(now);
@@ -228,7 +230,8 @@ TEST_CASE("a worker without work plans at once, whatever is owed") {
   turns.startDue(now);
   CHECK(begun == 6);
   turns.endPlan(member, 10);
-  // While nothing is meshed, passing time pays the debt, but gives no credit.
+  // While nothing is meshed, a twentieth of the elapsed time makes up for the 10 s of the last plan; the credit does
+  // not become positive.
   turns.request(member);
   turns.startDue(now + std::chrono::seconds(190));
   CHECK(begun == 6);
@@ -237,7 +240,7 @@ TEST_CASE("a worker without work plans at once, whatever is owed") {
   turns.endPlan(member, 10);
   turns.startDue(now + std::chrono::hours(100));
   CHECK(std::abs(turns.credit()) < 1e-6);
-  // A plan that its job system does not execute does not block the others for ever.
+  // If a job system never executes a plan, other plans wait for a while, but not for ever.
   turns.request(member);
   turns.startDue(now + std::chrono::hours(100));
   CHECK(begun == 8);
@@ -248,7 +251,7 @@ TEST_CASE("a worker without work plans at once, whatever is owed") {
   CHECK(begun == 9);
   turns.endPlan(member, 0);
   turns.endPlan(other, 0);
-  // A world that leaves takes its unfinished plan with it.
+  // When a world leaves, its mesh jobs no longer count: a worker becomes idle, so the waiting plan begins.
   turns.request(member);
   turns.leave(other);
   turns.startDue(now + std::chrono::hours(101));

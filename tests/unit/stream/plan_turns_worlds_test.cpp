@@ -1,4 +1,4 @@
-// Tests worlds that share workers, one of which keeps the workers busy: the others must plan all the same.
+// Tests worlds that share workers, one of which keeps the workers busy: the other worlds must be planned nevertheless.
 
 #include <chrono>
 #include <deque>
@@ -12,7 +12,7 @@ using namespace sgm;
 
 namespace {
 
-/// A job system whose jobs run in order of submission when the test says so.
+/// A job system that runs its jobs in the order of submission, and only when help() is called.
 class HeldJobs final : public JobSystem {
  public:
   ~HeldJobs() override {
@@ -73,7 +73,8 @@ TEST_CASE("a world plans as soon as another one has left with jobs that never be
 TEST_CASE("a world whose viewers move all the time plans though nothing is meshed") {
   const auto begun_at = std::chrono::steady_clock::now();
   TwoWorlds worlds;
-  // The second world plans when a twentieth of the passed time has paid for the plan of the first one.
+  // Without meshing, the second world may plan when a twentieth of the elapsed time exceeds the duration of the first
+  // world's plan.
   const auto at_most = begun_at + std::chrono::minutes(1) + 40 * (std::chrono::steady_clock::now() - begun_at);
   while (worlds.jobs.waiting() == 1 && std::chrono::steady_clock::now() < at_most) {
     worlds.move(*worlds.second);

@@ -25,7 +25,7 @@ PlannerSettings plannerSettings(bool by_reach) {
   return settings;
 }
 
-/// A surface without geometry, of which only the number of bytes and the seams matter.
+/// A surface without geometry, of which only the number of bytes and the seams are used.
 std::shared_ptr<const ChunkSurface> surfaceFor(const ChunkRequest& request, const ChunkSurface* before) {
   ChunkSurface surface(std::pmr::get_default_resource());
   surface.key = request.key;
@@ -45,7 +45,7 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
     std::vector<WorkItem> queue;
     WorldState edits, under;
     std::vector<WorldChange> edited;
-    std::vector<std::shared_ptr<const FrameStep>> offered;  // steps that the engine may take
+    std::vector<std::shared_ptr<const FrameStep>> offered;  // steps between frames that the engine may take
     PlanInput input;
     Viewer viewer;
     uint64_t frames = 0;
@@ -78,7 +78,7 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
       }
       queue = std::move(plan.queue);
       under = plan.edits;
-      // Of the steps offered before, the engine holds two at most.
+      // The engine holds at most two of the steps that were offered before.
       std::erase_if(offered, [&](const auto& step) { return step->from != planner.applied().number; });
       std::shuffle(offered.begin(), offered.end(), random);
       if (offered.size() > 2) offered.resize(2);
@@ -86,7 +86,7 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
       for (size_t i = 0; i < offered.size(); ++i) input.in_hand[i] = offered[i]->to->number;
       if (plan.step != nullptr) offered.push_back(plan.step);
       input.applied = planner.applied().number;
-      // Memory sometimes seems full, so that all unwanted chunks are dropped.
+      // Memory sometimes seems to be full, so that all chunks are dropped that are not wanted.
       input.live_bytes = random() % 3 == 0 ? size_t{200} << 20 : 0;
       if (!offered.empty() && random() % 2 == 0) {
         input.applied = offered[random() % offered.size()]->to->number;
@@ -161,7 +161,7 @@ TEST_CASE("an edited chunk that cannot be made keeps the edits back, and nothing
   viewer.position[0] += 200.0 * kUnitsPerMetre;
   REQUIRE(settle());
   CHECK(planner.applied().number > frame);
-  // The next edit meshes the failed chunks again.
+  // The next edit must mesh the failed chunks again.
   viewer.position[0] = 0;
   fails = false;
   dig();
@@ -224,7 +224,7 @@ TEST_CASE("digs that come with every plan keep nothing from being drawn") {
       flight.plan(20);
     }
     CHECK(flight.planner.applied().number > 0);
-    // Level 0 is drawn around the viewer, and digs soon after they were made.
+    // The planner must draw level 0 around the viewer, and must draw digs soon after they were made.
     CHECK(flight.planner.applied().tree.isSplit({1, {0, 0, 0}}));
     CHECK(flight.edits.number - flight.planner.stats().edits_drawn < 100);
   }
@@ -242,13 +242,13 @@ TEST_CASE("what is known over new ground does not grow, and what is wanted is ke
     most = std::max(most, flight.planner.stats().records);
   }
   CHECK(flight.planner.stats().meshed > 10 * wanted);
-  // Up to three times the wanted records and 1,024 more; they are counted every 16 plans.
+  // The planner keeps up to three times the wanted records and 1,024 more; it counts them every 16 plans.
   CHECK(most < 4 * wanted + 2048);
   for (int turn = 0; turn < 500 && !flight.idle; ++turn) flight.plan(200);
   REQUIRE(flight.idle);
   CHECK(flight.planner.stats().record_bytes > 0);
   const uint64_t meshed = flight.planner.stats().meshed;
-  // The chunks that the viewer has just left are still known, so little is meshed again.
+  // Chunks that the viewer has just left are still known, so few chunks are meshed again.
   flight.viewer.position[0] -= 20.0 * kUnitsPerMetre;
   for (int turn = 0; turn < 100; ++turn) flight.plan(200);
   REQUIRE(flight.idle);

@@ -1,4 +1,4 @@
-// Tests which chunks are reachable through the void: all that really are, and not many more.
+// Tests which chunks are found to be reachable through the void: all that really are, and few others.
 
 #include "stream/plan/reachability.h"
 
@@ -25,7 +25,7 @@ std::vector<ReachedChunk> reachedFrom(const Place& viewer, double radius, const 
   return reachedChunks(std::span(&viewer, 1), radius, kFineCell, voids);
 }
 
-/// A cube of chunks cut from one lattice of samples, x fastest; everything outside is solid.
+/// A cube of chunks that are cut from one lattice of samples, x fastest; everything outside is solid.
 class Cluster {
  public:
   explicit Cluster(int chunks) : chunks_(chunks), side_(chunks * kChunkCells + 1) {
@@ -70,7 +70,7 @@ class Cluster {
     return all;
   }
 
-  /// The chunks that contain a sample of the void to which `from` belongs.
+  /// The chunks that contain a sample of the void around `from`.
   std::set<ChunkKey> floodFill(Int3 from) const {
     std::vector<bool> seen = solid_;
     std::vector<Int3> open{from};
@@ -137,13 +137,13 @@ VoidLookup lookupIn(const std::map<ChunkKey, VoidComponents>& chunks) {
   };
 }
 
-/// A place in a grid cell that has the sample as a corner.
+/// The position of a sample, which is the lowest corner of a grid cell.
 Place placeBy(Int3 sample) { return {sample.x * 256.0, sample.y * 256.0, sample.z * 256.0}; }
 Place middleOf(const ChunkKey& key) {
   return {(key.at.x + 0.5) * kChunkEdge, (key.at.y + 0.5) * kChunkEdge, (key.at.z + 0.5) * kChunkEdge};
 }
 
-/// A chunk with one void that reaches the middle of the given faces, bits (1 << Face).
+/// A chunk with one void that reaches the middle of the given faces. faces: a bit (1 << Face) for each face.
 VoidComponents passageThrough(unsigned faces) {
   VoidComponents voids(1);
   for (size_t f = 0; f < 6; ++f) voids[0].faces[f] = faces >> f & 1 ? uint64_t{1} << 36 : 0;
@@ -175,7 +175,7 @@ TEST_CASE("random clusters: whatever a flood fill over all samples reaches is re
           missed += !steps;
           const auto apart = [&](int axis) { return std::abs(key.at[axis] - from[axis] / 32); };
           if (steps) CHECK(*steps >= static_cast<uint32_t>(apart(0) + apart(1) + apart(2)));
-        } else if (noise < 0.02) {  // rock full of holes has more voids in a chunk than are distinguished
+        } else if (noise < 0.02) {  // in rock full of holes, a chunk has more voids than the library distinguishes
           (steps ? reached_too : out_of_reach) += 1;
         }
       }
@@ -189,7 +189,7 @@ TEST_CASE("random clusters: whatever a flood fill over all samples reaches is re
 }
 
 TEST_CASE("steps follow the passage, and a chunk that is not known yet ends it") {
-  // A passage along x, around a corner into z, and back beside itself, separated by a wall of rock.
+  // A passage along x that turns to z and comes back along x, separated from its first part by rock.
   std::map<ChunkKey, VoidComponents> chunks;
   for (int32_t x = 0; x < 4; ++x) {
     chunks[{0, {x, 0, 0}}] = passageThrough((x > 0 ? kLowX : 0) | (x < 3 ? kHighX : kHighZ));
@@ -210,15 +210,14 @@ TEST_CASE("steps follow the passage, and a chunk that is not known yet ends it")
   chunks.erase({0, {2, 0, 0}});
   CHECK(steps({0, {2, 0, 0}}) == 2u);
   CHECK_FALSE(steps({0, {3, 0, 0}}));
-  // If the chunk is known, and its passage is closed on that side, the chunk is drawn, but nothing behind it is
-  // reached.
+  // If the passage is closed on the near side of a known chunk, the chunk is drawn, but no chunk behind it is reached.
   chunks[{0, {2, 0, 0}}] = passageThrough(kHighX);
   CHECK(steps({0, {2, 0, 0}}) == 2u);
   CHECK_FALSE(steps({0, {3, 0, 0}}));
   chunks[{0, {2, 0, 0}}] = hidden;
   CHECK(steps({0, {3, 0, 0}}) == 3u);
 
-  // Two voids in one chunk are separate places: the longer way around does not become shorter through it.
+  // Two voids in one chunk are separate places, so they are no shortcut between the two ends of a longer passage.
   chunks[{0, {0, 0, 1}}] = passageThrough(kHighX | kHighZ);
   chunks[{0, {0, 0, 0}}] = passageThrough(kHighX | kLowY);
   chunks[{0, {0, -1, 0}}] = passageThrough(kHighY | kHighZ);
@@ -284,7 +283,7 @@ TEST_CASE("a viewer in rock sees through it, and at the world's end what there i
     CHECK(reached.size() == 27);
     CHECK(stepsTo(reached, {0, {3, 3, 3}}) == 3u);
   }
-  // From the sealed void itself, nothing else is reached.
+  // From inside the sealed void, no other chunk is reached.
   const Place inside{2.02 * kChunkEdge, 2.02 * kChunkEdge, 2.98 * kChunkEdge};
   CHECK(reachedFrom(inside, kChunkEdge, [&](const ChunkKey&) { return &sealed; }).size() == 1);
 
@@ -330,7 +329,7 @@ TEST_CASE("around a spawn anchor of the cave a share of what is near lies behind
     CHECK(drawn_reached > 0);
     CHECK(reached.size() < voids.size());
 
-    // Chunks become known only when they are reached, and the result is the same.
+    // If chunks become known only when they are reached, the result is the same.
     std::map<ChunkKey, VoidComponents> known;
     std::vector<ReachedChunk> so_far;
     for (size_t before = 1; known.size() != before;) {

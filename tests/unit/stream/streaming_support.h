@@ -20,8 +20,8 @@ namespace sgm {
 
 inline constexpr int32_t kStreamedCell = 512;
 
-/// Jobs that run only when somebody helps, in an order drawn at random: the latest and the most disorderly system that
-/// the contract allows.
+/// A job system that runs jobs only within help(), in random order: it is as late and as disorderly as the contract
+/// allows.
 class LateJobs final : public JobSystem {
  public:
   explicit LateJobs(uint32_t seed) : random_(seed) {}
@@ -58,8 +58,8 @@ inline WorldFieldSettings withHosts(WorldFieldSettings settings, std::vector<Hos
   return settings;
 }
 
-/// The backend that SGM_TEST_BACKEND names, or the CPU: the same tests run with every backend. If that backend is
-/// unavailable, the whole program is skipped with exit status 77, unless SGM_REQUIRE_VULKAN forbids that.
+/// The backend that SGM_TEST_BACKEND names, or the CPU, so that the same tests run with every backend. If that backend
+/// is unavailable, the whole program is skipped with exit status 77, unless SGM_REQUIRE_VULKAN forbids that.
 inline const BackendRequest& testedBackend() {
   static const BackendRequest tested = [] {
     BackendRequest request;
@@ -78,7 +78,8 @@ inline const BackendRequest& testedBackend() {
   return tested;
 }
 
-/// A backend that waits until the device is ready: the tests must stream on the device, not on the CPU in its place.
+/// A backend that waits until its device is ready, so that the tests stream on the device, and not on the CPU
+/// meanwhile.
 class PatientBackend final : public Backend {
  public:
   explicit PatientBackend(std::unique_ptr<Backend> backend) : backend_(std::move(backend)) {}
@@ -97,7 +98,7 @@ class PatientBackend final : public Backend {
   std::unique_ptr<Backend> backend_;
 };
 
-/// A shared_ptr to a field that outlives all of its users.
+/// A shared_ptr that does not own the field, which must outlive all users of the pointer.
 inline std::shared_ptr<const WorldField> external(const WorldField& field) { return {std::shared_ptr<void>(), &field}; }
 
 struct Scene {
@@ -129,7 +130,7 @@ struct Scene {
   std::unique_ptr<World> world;
 };
 
-/// An engine that knows only what the events report.
+/// An engine that knows of a world only what its events report.
 class Engine {
  public:
   struct Shown {
@@ -138,7 +139,7 @@ class Engine {
     Neighbourhood coarser = 0;
   };
 
-  /// Processes all events. Returns the number of bytes that arrived since the last call.
+  /// Processes all events. Returns the number of bytes of surfaces that arrived since the last call.
   size_t take(World& world) {
     using Kind = WorldEvent::Kind;
     size_t bytes = 0;
@@ -223,19 +224,19 @@ inline void checkFrame(const Scene& scene, const Engine& engine, const EditSnaps
   CHECK(checkParts(parts).closed());
 }
 
-/// Waits until all is drawn, and takes it.
+/// Waits until the world has nothing left to do, and processes its events.
 inline void comeToRest(Scene& scene, Engine& engine) {
   REQUIRE(scene.world->waitIdle());
   engine.take(*scene.world);
 }
 
-/// The same, of what a viewer sees.
+/// Moves the only viewer, waits until the world has nothing left to do, and processes its events.
 inline void lookFrom(Scene& scene, Engine& engine, const Viewer& viewer) {
   REQUIRE(scene.world->setViewers({&viewer, 1}));
   comeToRest(scene, engine);
 }
 
-/// A frame's time of an engine that lends its thread.
+/// Spends about the time of a frame: runs jobs of the world, as an engine that lends its thread, or waits.
 inline void workOrWait(Scene& scene) {
   for (int jobs = 0; jobs < 50; ++jobs) {
     if (!scene.jobs->help()) return std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -248,7 +249,7 @@ inline Viewer viewerAt(double x, double y, double z) {
   return viewer;
 }
 
-/// The next place of a viewer that walks with turns and sometimes teleports to another part of the world.
+/// Moves a viewer one step: it walks with turns, and sometimes teleports to another part of the world.
 inline Viewer wander(std::mt19937& random, Viewer viewer) {
   const auto step = [&](double most) {
     return (static_cast<double>(random() % 2001) / 1000.0 - 1) * most * kUnitsPerMetre;

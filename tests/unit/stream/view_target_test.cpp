@@ -76,7 +76,7 @@ TEST_CASE("a picture's octree keeps the rules, covers its region and has no cell
       if (leaf.level > 0) CHECK(cell <= 4 * wide);
     }
     CHECK(fine + coarse > 0);
-    // Any place in the region lies in the leaf that is returned for it.
+    // leafAt() returns the leaf that contains the place, for any place in the region.
     for (int i = 0; i < 100; ++i) {
       Int3 place;
       for (int axis = 0; axis < 3; ++axis) {

@@ -29,7 +29,7 @@ std::vector<Viewer> randomViewers(std::mt19937& random, size_t count, double spr
     }
     if (random() % 4 == 0) viewer.weight = std::exp(within(2));
     if (random() % 8 == 0) viewer.fov = 0.3;
-    if (random() % 8 == 0) viewer.position = viewers.front().position;  // some viewers are at one place
+    if (random() % 8 == 0) viewer.position = viewers.front().position;  // some viewers stand at the same place
   }
   return viewers;
 }
@@ -90,7 +90,7 @@ TEST_CASE("the octree that many viewers want is what each of them asks for") {
     lod.finest_cell = kCell;
     lod.top = static_cast<int>(random() % 6);
     lod.finest_distance = 24.0 * kUnitsPerMetre;
-    // The view distance may be shorter than the distance at which the coarsest level is wanted.
+    // The view distance may be shorter than the distance at which viewers want the coarsest level.
     lod.view_distance = std::ldexp(kUnitsPerMetre, 5 + static_cast<int>(random() % 4));
     const std::vector<LodViewer> viewers =
         lodViewers(randomViewers(random, 1 + random() % 24, 300.0 * kUnitsPerMetre), lod);
@@ -114,7 +114,7 @@ TEST_CASE("the octree that many viewers want is what each of them asks for") {
       }
       refineToRules(wanted);
       const Octree found = near > 0 ? nearTarget(viewers, lod, near, finest) : lodTarget(viewers, lod, finest);
-      // Compares only if the whole result lies within the roots that were split above.
+      // Results are compared only if the whole octree lies within the roots that were split above.
       bool inside = true;
       for (const ChunkKey& node : found.splitNodes()) {
         const int up = lod.top + 1 - node.level;

@@ -38,8 +38,8 @@ TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and
     const DiskCacheStats cache = scene.world->stats().cache;
     if (again) {
       CHECK(hash == first);
-      // Both worlds end with the same frame. On the way there, each meshes other coarse chunks, depending on its
-      // threads' timing, and the second one stores those that the first has not.
+      // Both worlds end with the same frame. On the way, each world meshes other coarse chunks, depending on the timing
+      // of its threads; the second world stores those that the first one has not.
       const size_t drawn = drawnParts(engine);
       CHECK(drawn > 50);
       CHECK(cache.hits >= drawn);

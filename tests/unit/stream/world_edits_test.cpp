@@ -1,5 +1,5 @@
-// Tests edits of a streamed world: each frame shows one state of them and is closed, digs are drawn soon, and worlds
-// that exchange edits become equal.
+// Tests edits of a streamed world: each frame is closed and shows one state of the edits, digs are drawn soon, and
+// worlds that exchange edits become equal.
 
 #include <algorithm>
 #include <filesystem>
@@ -14,7 +14,7 @@ using namespace sgm;
 
 namespace {
 
-/// Edits a world, and records every state of its edits.
+/// Edits a world, and records the brushes after every edit.
 class Editor {
  public:
   explicit Editor(World& world) : world_(world), states_{nullptr} {}
@@ -31,7 +31,7 @@ class Editor {
     remember();
     return *undone;
   }
-  /// The brushes of the state with this number.
+  /// The brushes of the edit state with this number.
   const EditSnapshot* at(uint64_t state) const { return states_.at(state).get(); }
 
  private:
@@ -240,7 +240,7 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
     for (int i = 0; i < 5; ++i) REQUIRE(scene.world->edit(dig(viewer, i, 0, 0, 2)));
     hash = scene.world->editHash();
     REQUIRE(scene.world->setViewers({&viewer, 1}));
-    // Only the world's jobs write the journal here.
+    // Only the jobs of the world write the journal here.
     const auto size = std::filesystem::file_size(path);
     for (int updates = 0; updates < 100'000 && std::filesystem::file_size(path) == size; ++updates) {
       REQUIRE(scene.world->update(size_t{1} << 30));
@@ -258,7 +258,7 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
     CHECK(scene.world->stats().edits > 0);
     const Result<std::unique_ptr<World>> second =
         World::create(external(scene.field), *scene.backend, *scene.jobs, scene.settings, scene.field.memory());
-    REQUIRE_FALSE(second);  // another world has the journal open
+    REQUIRE_FALSE(second);  // the first world has the journal open
     CHECK(second.error().code == Code::limit);
   }
   Scene other(*makeThreadPool(1), replaced(caveText(), "detail 4m", "detail 5m"));

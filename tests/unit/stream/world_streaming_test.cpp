@@ -79,8 +79,9 @@ TEST_CASE("every frame of a wandering viewer is the closed frame of its octree")
 }
 
 TEST_CASE("a passage that a level leaves out ends in no larger a wall than is stated") {
-  // The error that sgm.h states at sgm_world_desc.finest_distance, in pixels of a screen whose focal length is 1 pixel.
-  const double width = 8, wider = 1;  // wider than the detail: a cell of level 1
+  // The largest error, as sgm.h states it at sgm_world_desc.finest_distance, in pixels of a screen whose focal length
+  // is 1 pixel.
+  const double width = 8, wider = 1;  // metres; wider: cell size of level 1, which exceeds the rule's detail
   const std::string text = replaced(sample("passage.sgm"), "detail 4m", "detail 0.9990234375m");
   Scene scene(*makeThreadPool(2), text);
   const double cell = static_cast<double>(kStreamedCell) / kUnitsPerMetre;
@@ -97,7 +98,7 @@ TEST_CASE("a passage that a level leaves out ends in no larger a wall than is st
     for (const double side : {-1.0, 1.0}) {
       const double wall = wallAlong(engine, viewer.position, side) / kUnitsPerMetre;
       CAPTURE(at, side, wall);
-      // The wall is nearer than the end of the drawn world.
+      // The wall is nearer than the end of the view distance.
       CHECK(wall < scene.settings.lod.view_distance / kUnitsPerMetre);
       CHECK(width / wall <= stated);
       largest = std::max(largest, width / wall);
@@ -142,9 +143,9 @@ TEST_CASE("no update hands over more bytes than it may, and a small budget loses
   for (const size_t budget : {std::numeric_limits<size_t>::max(), size_t{200'000}, size_t{15'000}}) {
     CAPTURE(budget);
     Scene scene(*makeThreadPool(2));
-    Engine engine;  // it fails if a chunk fails
+    Engine engine;  // the engine fails the test if a chunk fails
     REQUIRE(scene.world->setViewers({&viewer, 1}));
-    // beyond: bytes delivered since the last update without debt, minus the budgets.
+    // beyond: number of bytes that were delivered in excess of the budgets and not yet made up for by later budgets.
     size_t updates = 0, beyond = 0, largest = 0;
     while (!scene.world->stats().idle && ++updates < 100'000) {
       REQUIRE(scene.world->update(budget));
@@ -194,7 +195,8 @@ TEST_CASE("a viewer that never rests sees something new, however little its upda
   Scene scene(*makeThreadPool(2));
   Engine engine;
   Viewer viewer = viewerAt(96, 96, 96);
-  // The viewer moves before each update, whose budget is smaller than the changes that this causes.
+  // The viewer moves before each update, and the budget of each update is smaller than the changes that the move
+  // causes.
   for (int updates = 0; updates < 50'000 && scene.world->stats().frame < 4; ++updates) {
     viewer.position[0] += 0.02 * kUnitsPerMetre;
     REQUIRE(scene.world->setViewers({&viewer, 1}));
@@ -272,7 +274,7 @@ TEST_CASE("viewers of great weight see as far as can be planned, and too many ar
     workOrWait(scene);
   }
   CHECK(scene.world->stats().plans > 0);
-  // Including the coarser chunks that are drawn until the finer ones are ready.
+  // The number includes coarser chunks that are drawn until the finer ones are ready.
   CHECK(scene.world->stats().queued < static_cast<size_t>(kMaxExpectedLeaves * 9 / 8));
   const std::vector<Viewer> many(kMaxViewers + 1, viewer);
   const Result<void> set = scene.world->setViewers(many);
@@ -281,7 +283,7 @@ TEST_CASE("viewers of great weight see as far as can be planned, and too many ar
 }
 
 TEST_CASE("jobs that run at once, where they are submitted, mesh a chunk an update and no more") {
-  /// A job system without threads, which cannot queue jobs either.
+  /// A job system without threads, which cannot queue any jobs either.
   class NoJobs final : public JobSystem {
    public:
     unsigned concurrency() const override { return 1; }
@@ -312,7 +314,8 @@ TEST_CASE("jobs that run at once, where they are submitted, mesh a chunk an upda
 }
 
 TEST_CASE("while there is always something to mesh no jobs pile up that have nothing to do") {
-  /// A job system with one worker, which runs the most urgent job, and among these the one that has waited longest.
+  /// A job system with one worker, which runs the most urgent job; among equally urgent jobs, it runs the one that has
+  /// waited longest.
   class OneWorker final : public JobSystem {
    public:
     ~OneWorker() override {
@@ -340,7 +343,7 @@ TEST_CASE("while there is always something to mesh no jobs pile up that have not
   Engine engine;
   Viewer viewer = viewerAt(96, 96, 96);
   uint64_t meshed = 0;
-  bool always = true;  // whether there was always something to mesh
+  bool always = true;  // whether the world always had a chunk to mesh
   for (int updates = 0; updates < 300; ++updates) {
     viewer.position[0] += 2.0 * kUnitsPerMetre;
     REQUIRE(scene.world->setViewers({&viewer, 1}));
@@ -424,7 +427,7 @@ TEST_CASE("surfaces may be let go of on any thread, after the world's end too", 
 }
 
 TEST_CASE("a chunk with more anchors than fit into what is reserved for it fails, and nothing else does") {
-  // All shapes are in the chunk at the origin.
+  // All shapes of the grammar are in the chunk at the origin.
   const std::string text =
       "sgm 1; units m; start Main;\n"
       "rule Main { repeat 250 rot(y, 1deg) { repeat 250 rot(x, 1deg) { anchor spawn \"x\"; } } sphere(12m); }\n";

@@ -1,4 +1,4 @@
-// What a streamed world's surfaces have beside triangles: measures and texture coordinates, those of each chunk alone.
+// Tests measures and texture coordinates of a streamed world's surfaces: they equal those of each chunk alone.
 
 #include <cmath>
 

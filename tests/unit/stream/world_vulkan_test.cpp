@@ -1,4 +1,5 @@
-// Tests a world that is streamed from a Vulkan device: closed in every frame, and equal to the CPU's.
+// Tests a world that is streamed from a Vulkan device: it is closed in every frame, and ends equal to the world that
+// the CPU meshes.
 
 #include <cstdlib>
 #include <iostream>
@@ -9,7 +10,7 @@
 using namespace sgm;
 
 TEST_CASE("a world that a Vulkan device meshes is closed as it streams, and comes to rest as the CPU's") {
-  // Few kinds of instructions, since software Vulkan compiles its shaders anew for each.
+  // The grammar uses few kinds of instructions, because software Vulkan compiles its shaders anew for each kind.
   const std::string balls =
       "sgm 1; units m; domain infinite; layer l cell 16m reach 1m { start Balls; }\n"
       "rule Balls { for x in 0..1 { for z in 0..1 { at(4m+8m*x, 8m, 4m+8m*z) sphere(2.6m); } } }";

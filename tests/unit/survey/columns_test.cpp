@@ -85,12 +85,12 @@ TEST_CASE("a sheet has walls, water, what lies below, and the cut", "[survey]") 
     INFO(name);
     CHECK(hasMark(drawing, name));
   }
-  // The area of the plan: the upper room, and the part of the lower one that extends beyond it.
+  // The area of the plan: the upper room, and the part of the lower room that extends beyond the upper one.
   CHECK(figures.plan.area == Approx(20 * 12 + 8 * 18).epsilon(0.03));
   CHECK(figures.plan.lowest == Approx(-11).margin(0.1));
   CHECK(figures.plan.leads == 0);
   CHECK(figures.plan.water == std::set<double>{3.0});
-  // The area of the section: both rooms, without the pool.
+  // The area of the section is that of both rooms, without the pool.
   CHECK(figures.section.area == Approx(20 * 8 - 4 + 8 * 6).epsilon(0.1));
   for (const Mark& mark : drawing.marks)
     for (const Line& one : mark.lines)

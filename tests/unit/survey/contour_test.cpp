@@ -16,7 +16,7 @@ Grid cone(int size, double radius) {
   return grid;
 }
 
-/// Twice the area that a ring encloses; positive if the ring is clockwise on paper.
+/// Twice the area of a ring; positive if the ring is clockwise on paper.
 double turned(const Line& ring) {
   double sum = 0;
   for (size_t i = 1; i < ring.size(); ++i) sum += ring[i - 1].x * ring[i].y - ring[i].x * ring[i - 1].y;
@@ -32,7 +32,7 @@ TEST_CASE("a contour of a cone is a circle that ends where it began", "[survey]"
   CHECK(lines[0].front() == lines[0].back());
   for (const Point& p : lines[0]) CHECK(std::hypot(p.x - 19.5, p.y - 19.5) == Approx(12).margin(0.1));
   CHECK(lengthOf(lines[0]) == Approx(2 * 3.14159 * 12).epsilon(0.01));
-  // Larger values are on the right, as seen along the line.
+  // Seen along the line, larger values are on its right.
   CHECK(turned(lines[0]) > 0);
   CHECK(lengthOf(smoothed(lines[0])) == Approx(lengthOf(lines[0])).epsilon(0.01));
   CHECK(smoothed(lines[0]).front() == smoothed(lines[0]).back());
@@ -68,7 +68,7 @@ TEST_CASE("of four corners by turns the mean says which hang together", "[survey
   grid.at(0, 0) = grid.at(1, 1) = 3;
   const std::vector<Line> together = contours(grid, 0);
   REQUIRE(together.size() == 2);
-  // The two low corners are cut off by separate lines.
+  // The lines cut off the two low corners separately.
   CHECK(together[0].front().x + together[0].front().y != Approx(together[1].front().x + together[1].front().y));
   grid.at(0, 0) = grid.at(1, 1) = 0.5f;
   CHECK(contours(grid, 0).size() == 2);

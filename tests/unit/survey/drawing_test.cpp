@@ -27,7 +27,7 @@ TEST_CASE("areas and lines cover the pixels that they lie on", "[survey]") {
   CHECK(redAt(image, 10, 9) == 0);
   CHECK(redAt(image, 10, 10) == 0);
   CHECK(redAt(image, 10, 12) == 255);
-  // A line one pixel wide covers half of each of two pixels.
+  // A line that is one pixel wide and lies on the border of two rows covers half of the pixels in each row.
   drawing.marks = {{"line", {{{0, 10}, {20, 10}}}, false, kBlack, 1, {}, {}}};
   image = rasterise(drawing);
   CHECK(redAt(image, 10, 9) == Approx(128).margin(1));
@@ -54,7 +54,7 @@ TEST_CASE("letters stand on their baseline, as wide as was said", "[survey]") {
   }
   CHECK(right <= 100);
   CHECK(left >= 100 - letterWidth("H-3.5 m", 21));
-  // A character is drawn as one sign, however many bytes it has.
+  // A character of several bytes is drawn as one glyph.
   CHECK(letterWidth("\xC3\xA4", 21) == letterWidth("?", 21));
 }
 

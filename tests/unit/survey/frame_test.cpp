@@ -110,12 +110,12 @@ TEST_CASE("the camera shows what is asked for, two thirds of the picture large",
   CHECK(2 / distance > 0.4f * std::tan(glm::radians(25.0f)));
   const auto again = frame(ball, targets, request, [](glm::vec3) { return true; });
   CHECK(again->camera.position == view->camera.position);
-  // Without any place for the camera, no view is found.
+  // If no place is allowed for the camera, no view is found.
   CHECK_FALSE(frame(ball, targets, request, [](glm::vec3) { return false; }));
 }
 
 TEST_CASE("of two the one that is not hidden is shown, and from the open side", "[frame]") {
-  // A ball hidden in a shell, and another one beside the shell.
+  // A ball hidden in a shell, and a second ball outside of the shell.
   const glm::vec3 hidden{0, 0, 0}, free{12, 0, 0};
   TestMesh mesh = sphereMesh(hidden, 1, false);
   const auto in_ball = static_cast<uint32_t>(mesh.indices.size() / 3);

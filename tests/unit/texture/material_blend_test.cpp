@@ -1,4 +1,5 @@
-// Tests pairs of materials and shares of planes: the most frequent ones are chosen, in any order of corners.
+// Tests the choice of material pairs and of shares of planes: the most frequent ones are chosen, whatever the order of
+// corners.
 
 #include <algorithm>
 #include <cmath>

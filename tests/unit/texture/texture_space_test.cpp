@@ -95,7 +95,7 @@ std::vector<Sample> samplesOf(std::mt19937& random) {
     };
   };
   const double r = uniform(random, 3000, 9000);
-  // The sphere is mapped like a cube, with equal angles on each face: at the cube's corners, a tile is some 30 %
+  // The sphere is mapped like a cube, with equal angles on each face: at the cube's corners, tiles are some 30 %
   // smaller.
   add(leaf(ShapeKind::sphere, randomFrame(random), {r}), 1.45, [r](std::mt19937& g) {
     const TexturePoint d = randomDirection(g);
@@ -112,7 +112,7 @@ std::vector<Sample> samplesOf(std::mt19937& random) {
     return s;
   });
   const double bottom = uniform(random, 2000, 5000), top = uniform(random, 1900, 2000);
-  // The number of tiles around the cone is that of its mean radius.
+  // The number of tiles around the cone follows from its mean radius.
   add(leaf(ShapeKind::truncone, randomFrame(random), {bottom, top, y}), 1.6, [=](std::mt19937& g) {
     const double turn = uniform(g, 0, 2 * kPi), t = uniform(g, 0.02, 0.98);
     const double radius = bottom + t * (top - bottom), slope = (bottom - top) / (2 * y);
@@ -156,13 +156,14 @@ std::vector<Sample> samplesOf(std::mt19937& random) {
   });
   samples.back().chunk.points.assign(corners.begin(), corners.end());
   const double ring = uniform(random, 7000, 9000), tube = uniform(random, 1000, 2000);
-  // The number of tiles is the same around the inner and the outer side.
+  // The number of tiles around the torus is the same on the inner and the outer side.
   add(leaf(ShapeKind::torus, randomFrame(random), {ring, tube}), 1.45, [=](std::mt19937& g) {
     const double turn = uniform(g, 0, 2 * kPi), around = uniform(g, 0, 2 * kPi);
     const TexturePoint n{std::sin(turn) * std::cos(around), std::sin(around), std::cos(turn) * std::cos(around)};
     return SurfacePoint{TexturePoint{ring * std::sin(turn), 0, ring * std::cos(turn)} + times(tube, n), n};
   });
-  // A beam of a single piece: its line runs along local z, and its ends are a radius beyond those of the line.
+  // A beam of a single piece: its line runs along local z, and the beam extends beyond each end of the line by its
+  // radius.
   const double length = uniform(random, 15000, 40000);
   const Frame frame = randomFrame(random);
   add(leaf(ShapeKind::box, frame, {r, r, length / 2 + r}), 1.06, [=](std::mt19937& g) {
@@ -212,7 +213,7 @@ TEST_CASE("texture coordinates are as long as the surface, at right angles, and 
           return TextureCoordinates{(to.u - here.u) * kUnitsPerMetre / step, (to.v - here.v) * kUnitsPerMetre / step};
         };
         const TextureCoordinates du = way(a), dv = way(b);
-        // The directions a and b with the normal are right-handed, and so must be those of u and v.
+        // Since a, b and the normal are right-handed, the directions of u and v must be so, too.
         const double turn = du.u * dv.v - du.v * dv.u;
         CHECK(turn > 1 / (sample.stretch * sample.stretch));
         CHECK(turn < sample.stretch * sample.stretch);
@@ -254,7 +255,7 @@ TEST_CASE("along a bent line the coordinates go on from segment to segment") {
     Shape whole;
     whole.kind = ShapeKind::unite;
     whole.size[0] = 2000;
-    // A gently curved path, as sweeps have.
+    // A gently curved path, as paths of sweeps are.
     double heading = uniform(random, 0, 6);
     const double turn = uniform(random, -0.15, 0.15), climb = uniform(random, -0.3, 0.3);
     TexturePoint at{uniform(random, -1e6, 1e6), uniform(random, -1e6, 1e6), uniform(random, -1e6, 1e6)};
@@ -284,7 +285,7 @@ TEST_CASE("along a bent line the coordinates go on from segment to segment") {
       CHECK(std::fabs(now.v - before.v) < 0.7);
       before = now;
     }
-    // The coordinate v is as long as the line.
+    // The texture coordinate v grows by the length of the line.
     CHECK(before.v == Approx(10.6 * 4000 * std::hypot(1, climb) / kUnitsPerMetre).epsilon(0.02));
   }
 }

@@ -68,7 +68,7 @@ TEST_CASE("triangles keep their corners, and only the cut doubles vertices") {
       REQUIRE(unwrapped.wedges[unwrapped.corners[i]].vertex == tube.indices[i]);
     }
     CHECK(unwrapped.wedges.size() == tube.positions.size() + rings);
-    // No triangle spans the seam where the coordinate around the tube starts again.
+    // No triangle spans the seam at which the coordinate around the tube starts again.
     for (size_t t = 0; t < unwrapped.corners.size(); t += 3) {
       for (size_t i = 0; i < 3; ++i) {
         const Wedge a = unwrapped.wedges[unwrapped.corners[t + i]];
@@ -90,8 +90,8 @@ TEST_CASE("a triangle lies in the space of two of its vertices, and the world's 
   std::set<uint32_t> vertices;
   for (const Wedge& wedge : unwrapped.wedges) vertices.insert(wedge.vertex);
   CHECK(vertices.size() == tube.positions.size());
-  // The upper part belongs to no shape, so the world's axes are used, relative to any place that is a whole number of
-  // tiles away.
+  // The upper part belongs to no shape, so its texture coordinates come from the world's axes. If their origin
+  // moves by a whole number of tiles, the coordinates change by whole numbers.
   Tube moved = tube;
   moved.spaces[0] = TextureSpace({7 * kUnitsPerMetre, -3 * kUnitsPerMetre, 11 * kUnitsPerMetre}, kUnitsPerMetre);
   const Unwrapped other = unwrap(moved.input(), std::pmr::get_default_resource());
@@ -111,7 +111,8 @@ TEST_CASE("all corners of a triangle have one pair of materials, and only pairs 
     const uint32_t around = static_cast<uint32_t>(12 + random() % 40),
                    rings = static_cast<uint32_t>(10 + random() % 20);
     Tube tube(1000.0 + static_cast<double>(random() % 9000), 5000, around, rings);
-    // Two materials, one above the other, with a ring between that has both; the lowest rings belong to no shape.
+    // The tube has two materials, one above the other, and a ring between with both; the lowest rings belong to no
+    // shape.
     const size_t border = 5 + random() % (rings - 8);
     for (size_t i = 0; i < 2 * size_t{around}; ++i) tube.labels[i] = 0;
     const size_t plain = unwrap(tube.input(), std::pmr::get_default_resource()).wedges.size();
@@ -147,7 +148,8 @@ TEST_CASE("all corners of a triangle have one pair of materials, and only pairs 
       if (t == 0) CHECK(by_world == 3);
     }
     for (const auto& [place, seen] : shares) CHECK(seen.size() == 1);
-    // The vertices of the rings below and above the border occur with two pairs of materials each, also at the seam.
+    // The vertices of the rings below and above the border have two pairs of materials each, and so two wedges, also at
+    // the seam.
     CHECK(unwrapped.wedges.size() == plain + 2 * (size_t{around} + 1));
   }
 }

@@ -11,12 +11,13 @@ using namespace sgm::test;
 
 namespace {
 
-constexpr double kFarthestOff = 0.05;  // cells, maximum distance between the surfaces
-constexpr double kLookedFor = 0.01;    // cells, accuracy with which the largest distance is computed
+constexpr double kFarthestOff = 0.05;  // in cells: maximum distance between the two surfaces
+constexpr double kLookedFor = 0.01;    // in cells: accuracy with which the largest distance is computed
 
 using Axes = std::array<measure::Point, 3>;
 
-/// The axes rotated about y, then x, then z, the innermost rotation last, as in the grammar language; degrees.
+/// The axes after rotations about y, x and z in degrees; the rotation about z is applied first, as in the grammar
+/// language.
 Axes turned(const std::array<double, 3>& degrees) {
   Axes axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const auto rotate = [](int about, double angle, measure::Point p) {
@@ -55,7 +56,7 @@ struct TurnedCube {
     for (size_t k = 0; k < 3; ++k) {
       degrees[k] = between(random, 0, 360);
       sides[k] = between(random, 4, 7);
-      // Positions are whole units, as shapes' positions are.
+      // Positions are rounded to whole units, as positions of shapes are.
       centre[k] = std::round(between(random, -1, 1) * kUnitsPerMetre) / kUnitsPerMetre;
     }
     char grammar[512];
@@ -104,8 +105,8 @@ TEST_CASE("cubes at any angle deviate by a twentieth of a cell", "[validity][cub
 }
 
 TEST_CASE("wedges whose edges touch samples are valid", "[validity][cubes][sharp][costly]") {
-  // A sample that touches an edge often makes a tiny component of its own, 1/256 of a cell wide, which the sharp edge
-  // must not enclose. In the first two wedges, it did so.
+  // A sample that touches an edge often makes a tiny component of its own, 1/256 of a cell wide. The sharp edge must
+  // not enclose this component; an earlier version did so for the first two seeds.
   constexpr unsigned kFirst = 241;
   const ReportContext shop;
   for (unsigned seed = kFirst; seed < kFirst + rounds(60); ++seed) {
@@ -113,7 +114,7 @@ TEST_CASE("wedges whose edges touch samples are valid", "[validity][cubes][sharp
     std::mt19937 random(seed);
     const double cell = kSolidCells[seed % 2], sample = std::floor(cell * kUnitsPerMetre) / kUnitsPerMetre;
     const Axes axes = turned(wedge.degrees);
-    // A sample lies up to three units inside the edge, which runs along y.
+    // The edge of the wedge runs along y; a sample lies up to three units inside of it.
     const double within = between(random, 0, 3) / kUnitsPerMetre, half = between(random, 0.5, 2.5);
     measure::Point at = -within * axes[0] + between(random, -2, 2) * axes[1];
     for (int k = 0; k < 3; ++k) at[k] += sample * static_cast<double>(random() % 5);

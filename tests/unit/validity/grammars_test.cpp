@@ -111,7 +111,7 @@ void checkTable(bool sharp) {
         const MeshedRegion region = meshedRegion(world, shop, boxOf(row), sharp);
         CHECK(region.chunks <= kMaxChunks);
         triangles += region.mesh.triangles.size();
-        // With many seeds, some have nothing in such a small region.
+        // With many seeds, some worlds have no surface in such a small region.
         if (region.mesh.triangles.empty()) continue;
         const Faults faults = faultsOf(region.mesh, &region.cut, *shop.jobs);
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

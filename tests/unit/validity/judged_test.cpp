@@ -1,5 +1,6 @@
-// Tests random sharp solids with CGAL: closed, manifold, oriented outward, without triangles of zero area, and without
-// intersections. tests/judges runs these tests; SGM_JUDGE_CGAL names the judge.
+// Tests random sharp solids with CGAL: the surfaces must be closed, manifold and oriented outward, without triangles of
+// zero area and without intersections. tests/judges runs these tests; the environment variable SGM_JUDGE_CGAL names the
+// program that judges.
 
 #include <cstdio>
 #include <cstdlib>

@@ -52,7 +52,7 @@ struct Faults {
   size_t degenerate = 0;    ///< triangles with two corners at the same position
   size_t without_area = 0;  ///< triangles with three corners on a line
   size_t folded = 0;        ///< pairs of triangles that share an edge and lie on each other
-  size_t cuts = 0;          ///< pairs of triangles that intersect elsewhere
+  size_t cuts = 0;          ///< other pairs of triangles that intersect
   size_t nonmanifold = 0;   ///< edges of three or more triangles
   /// Non-manifold vertices, duplicates, holes, misoriented edges, shells with the wrong orientation.
   size_t others = 0;
@@ -114,7 +114,7 @@ struct MeshedRegion {
   uint64_t chunks = 0;
 };
 
-/// The mesh of the chunks of one level that meet lo <= p < hi.
+/// Meshes those chunks of one level that meet lo <= p < hi.
 inline MeshedRegion meshedRegion(const WorldField& world, const ReportContext& shop, const IntBox& box, bool sharp) {
   const Result<RegionMesh> region = meshRegion(world, *shop.backend, *shop.jobs, box, 0, 4096, sharp);
   INFO((region ? "" : region.error().message));

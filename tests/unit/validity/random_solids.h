@@ -1,6 +1,6 @@
 #pragma once
-// Random unions and cuts of boxes, prisms and balls in any orientation: solids with all kinds of edges and corners that
-// sharp features must handle, among them concave ones and thin walls.
+// Random unions and cuts of boxes, prisms and balls in any orientation. They have all kinds of edges and corners that
+// sharp features must handle, including concave ones, and thin walls.
 
 #include <random>
 
@@ -8,7 +8,7 @@
 
 namespace sgm::test {
 
-/// The two cell sizes with which solids are meshed, metres; the second is not a power of two of units.
+/// The two cell sizes with which solids are meshed, in metres; the second is not a power of two in units.
 inline constexpr double kSolidCells[] = {0.5, 0.3};
 
 inline double between(std::mt19937& random, double low, double high) {
@@ -21,8 +21,8 @@ inline std::string metresText(double value) {
   return text;
 }
 
-/// A random rotation. One in four is a multiple of 45 degrees, with which faces and edges coincide with the grid and
-/// each other.
+/// A random rotation. One in four is by a multiple of 45 degrees, with which faces and edges coincide with the grid and
+/// with each other.
 inline std::string turn(std::mt19937& random) {
   const bool even = random() % 4 == 0;
   std::string text;
@@ -36,7 +36,7 @@ inline std::string turn(std::mt19937& random) {
 }
 
 inline std::string place(std::mt19937& random, double reach) {
-  // One place in four lies on a lattice that is aligned with grid cells.
+  // One position in four lies on a lattice that is aligned with grid cells.
   const bool even = random() % 4 == 0;
   std::string text = "at(";
   for (int axis = 0; axis < 3; ++axis) {
@@ -46,7 +46,7 @@ inline std::string place(std::mt19937& random, double reach) {
   return text + ") ";
 }
 
-/// A random length of a side; one in six is thinner than a cell.
+/// A random length of a side; one in six is shorter than a cell.
 inline std::string side(std::mt19937& random) {
   return metresText(random() % 6 == 0 ? between(random, 0.1, 0.5) : between(random, 1, 6));
 }
@@ -56,7 +56,7 @@ inline std::string shape(std::mt19937& random) {
     case 0:
       return "box(" + side(random) + ", " + side(random) + ", " + side(random) + ");";
     case 1: {
-      // The corners are in order around the middle, so that no sides cross, but the prism may be concave.
+      // The corners are sorted by angle around the middle, so that no sides cross; the prism may be concave.
       const int corners = 3 + static_cast<int>(random() % 4);
       std::string text = "prism(" + side(random);
       for (int i = 0; i < corners; ++i) {

@@ -98,9 +98,10 @@ bool pierce(std::span<const measure::Point> points, const measure::Triangle& a, 
 
 struct SeamFaults {
   size_t triangles = 0, in_seams = 0;
-  size_t degenerate = 0;  ///< triangles with two corners at the same place, except one corner of each level in a seam
-  size_t cuts = 0;        ///< pairs in the bodies of one level that intersect
-  size_t pierced = 0;     ///< pairs anywhere that pierce each other
+  size_t degenerate = 0;  ///< triangles with two corners at the same position, unless these belong to different levels
+                          ///< of a seam
+  size_t cuts = 0;        ///< pairs of triangles that intersect, in the bodies of one level
+  size_t pierced = 0;     ///< pairs of triangles that pierce each other, anywhere
 
   bool any() const { return degenerate + cuts + pierced > 0; }
 };
@@ -191,8 +192,9 @@ TEST_CASE("random solids are valid as marching cubes make them", "[validity][sol
 TEST_CASE("random solids are valid with sharp features", "[validity][solids][sharp][costly]") { checkSolids(true); }
 
 TEST_CASE("a speck that an edge grows round stays outside of the solid", "[validity][solids][sharp]") {
-  // This seed has a sample that touches the surface beside an edge: the ball around the sample is a component of its
-  // own, 1/256 of a cell wide, and the sharp edge, which is exact to 1/25 of a cell, passed beyond it.
+  // This seed has a sample that touches the surface next to an edge. The surface around the sample is a component of
+  // its own, 1/256 of a cell wide. In an earlier version, the sharp edge, which is exact to 1/25 of a cell, enclosed
+  // this component.
   const ReportContext shop;
   std::mt19937 random(312);
   const WorldField world(worldOf(compiled(randomSolid(random)), 0.5, 1), std::pmr::get_default_resource());

@@ -1,7 +1,7 @@
 #include "backend/vulkan/pipeline_cache.h"
 #include "support.h"
 
-// LeakSanitizer, if present, calls this. The validation layer leaves allocations of its own behind for each device.
+// LeakSanitizer calls this function. The validation layer leaks some allocations of its own for each device.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" __attribute__((visibility("default"))) const char* __lsan_default_suppressions() {
   return "leak:libVkLayer_khronos_validation";

@@ -9,7 +9,7 @@ using namespace sgm::vulkan;
 TEST_CASE("once warm, recording, submitting and waiting take no memory of the host's", "[vulkan]") {
   if (!haveDevice()) return;
   OwnDevice options;
-  // The option for the validation layer stays off, because the layer makes many allocations itself.
+  // The validation layer stays off, because it makes many allocations itself.
   options.software = true;
   const auto device = Device::open(options);
   REQUIRE(device);

@@ -24,7 +24,7 @@ constexpr size_t kUsual = alignof(std::max_align_t);
 
 }  // namespace
 
-// All forms of operator new are replaced: otherwise a leak checker's forms would not match ours.
+// Replaces all forms of operator new: otherwise, a leak checker's forms would not match these.
 void* operator new(size_t size) { return allocateOrThrow(size, kUsual); }
 void* operator new(size_t size, std::align_val_t alignment) {
   return allocateOrThrow(size, static_cast<size_t>(alignment));

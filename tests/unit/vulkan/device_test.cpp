@@ -36,7 +36,7 @@ TEST_CASE("an engine's device is used under its lock and left as it was", "[vulk
     CHECK(engine.unlocks == round + 1);
     CHECK(engine.held == 0);
   }
-  // The device still belongs to the engine.
+  // After the library's device is destroyed, the engine's device still works.
   CHECK(engine.calls.vkDeviceWaitIdle(engine.device) == VK_SUCCESS);
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("an engine's device that will not do is refused with what it lacks", "
   refused(Code::invalid_argument, "queue family 77", [](B& external) { external.family = 77; });
   refused(Code::unsupported, "1.1", [](B& external) { external.api_version = VK_API_VERSION_1_1; });
   refused(Code::unsupported, "timelineSemaphore", [](B& external) { external.timeline_semaphores = false; });
-  // A resolver that knows no functions, like one of another loader.
+  // A resolver that knows no functions, like that of another loader.
   refused(Code::unsupported, "lacks functions", [](B& external) {
     external.get_instance_proc_addr = [](VkInstance, const char*) -> PFN_vkVoidFunction { return nullptr; };
   });
@@ -116,7 +116,7 @@ TEST_CASE("the validation layer is heard", "[vulkan]") {
   const auto device = Device::open(watched());
   REQUIRE(device);
   VkBufferCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;  // an invalid buffer: of size 0 and without usage
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;  // an invalid buffer: its size and its usage are 0
   VkBuffer buffer = VK_NULL_HANDLE;
   if ((*device)->calls().vkCreateBuffer((*device)->handle(), &info, nullptr, &buffer) == VK_SUCCESS) {
     (*device)->calls().vkDestroyBuffer((*device)->handle(), buffer, nullptr);
@@ -145,7 +145,7 @@ TEST_CASE("a shader that reaches beyond its buffer is heard", "[vulkan]") {
   const uint32_t constants[] = {0, 1};
   const auto shader = Pipeline::create(**device, affineShader(constants));
   REQUIRE(shader);
-  // The validation layer checks bounds only of whole VkBuffers, so each of our buffers gets a block of its own.
+  // The validation layer checks bounds of whole VkBuffers only, so each of our buffers gets a block of its own here.
   MemoryOptions small;
   small.first_block = small.largest_block = 64 * sizeof(int32_t);
   Memory memory(**device, small);

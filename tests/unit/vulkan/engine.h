@@ -6,7 +6,7 @@
 
 namespace sgm::vulkan {
 
-/// Its device is made without the library. The validation layer must report nothing until its end.
+/// An engine's device that is made without the library. Until the end, the validation layer must report nothing.
 struct Engine {
   std::unique_ptr<Instance> instance;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
@@ -15,7 +15,7 @@ struct Engine {
   DeviceTable calls;
   int locks = 0, unlocks = 0, held = 0;
 
-  /// external_memory: the device has the extension VK_KHR_external_memory_fd.
+  /// external_memory: enables the extension VK_KHR_external_memory_fd.
   explicit Engine(Validation validation = Validation::synchronization, bool external_memory = false) {
     auto made = Instance::create({validation});
     REQUIRE(made);

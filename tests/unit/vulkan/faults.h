@@ -16,7 +16,7 @@ class Faults {
  public:
   Faults() { state() = State(); }
 
-  /// The nth call of a function from now on, counted from 1, does nothing but return `result`.
+  /// Makes the nth call of a function from now on, counted from 1, return `result` and do nothing else.
   void arm(const std::string& function, unsigned nth, VkResult result) {
     const std::scoped_lock lock(mutex());
     state().function = function;

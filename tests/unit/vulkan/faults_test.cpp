@@ -37,14 +37,14 @@ Code codeOf(VkResult failure) {
   }
 }
 
-/// Whether failures of a function are compensated, or occur when no result is needed any more.
+/// Whether the library compensates for failures of this function, or no longer needs its result.
 bool mayBeMadeGood(const std::string& function) {
   const std::set<std::string> functions{"vkCreateBuffer",
                                         "vkAllocateMemory",
                                         "vkBindBufferMemory",
-                                        "vkMapMemory",  // a smaller block is tried next
+                                        "vkMapMemory",  // the library tries a smaller block next
                                         "vkWaitSemaphores",
-                                        "vkDeviceWaitIdle",  // called before everything is destroyed
+                                        "vkDeviceWaitIdle",  // called only before everything is destroyed
                                         "vkEnumerateDeviceExtensionProperties"};  // then the memory budget is unknown
   return functions.count(function) != 0;
 }
@@ -67,7 +67,7 @@ Result<std::vector<int32_t>> runOnBorrowed(Engine& engine) {
   return runOn(Device::borrow(external));
 }
 
-/// Makes every function fail that `run` calls, at each call that `wanted` selects; the validation layer must report
+/// Makes every function that `run` calls fail at each call that `wanted` selects; the validation layer must report
 /// nothing.
 template <class Run, class Wanted, class Quiet>
 void failEverywhere(Run run, Wanted wanted, Quiet quiet) {
@@ -105,7 +105,7 @@ void failEverywhere(Run run, Wanted wanted, Quiet quiet) {
 TEST_CASE("every call may fail on a device of our own", "[vulkan]") {
   if (!haveDevice()) return;
   const auto log = std::make_shared<MessageLog>();
-  // Only the first call of each function fails here; later calls fail in the test with an engine's device, which need
+  // Here, only the first call of each function fails. Later calls fail in the test with an engine's device, which need
   // not be opened each time.
   failEverywhere([&] { return runOnOwn(log); }, [](unsigned nth) { return nth == 1; },
                  [&] { return log->texts().empty(); });
@@ -245,7 +245,7 @@ TEST_CASE("nothing is destroyed while it is in use, whatever the last wait says"
   REQUIRE(ring);
   auto commands = (*ring)->begin();
   REQUIRE(commands);
-  for (uint32_t i = 0; i < 20; ++i) {  // work long enough to be running when the wait fails at once
+  for (uint32_t i = 0; i < 20; ++i) {  // so much work that it is still running when the wait fails at once
     commands->fill(*buffer, i);
     commands->barrier(kTransfer, kTransfer);
   }

@@ -5,8 +5,8 @@
 
 namespace sgm::vulkan {
 
-/// Keeps every library that is now loaded in memory until the end: drivers and layers leave allocations behind when
-/// they are unloaded, and a leak checker could not distinguish these from ours.
+/// Keeps every library that is loaded now in memory until the process ends: drivers and layers leave allocations behind
+/// when they are unloaded, which a leak checker could not distinguish from ours.
 inline void keepLibraries() {
   dl_iterate_phdr(
       [](dl_phdr_info* info, size_t, void*) {

@@ -24,7 +24,8 @@ VkPhysicalDeviceMemoryProperties memoryOf(std::vector<VkMemoryPropertyFlags> typ
   return memory;
 }
 
-/// Simulates a driver that allows 1 MiB of each heap, half of which other programs use.
+/// The real resolver. The functions below simulate a driver that allows 1 MiB of each heap, half of which other
+/// programs use.
 PFN_vkGetInstanceProcAddr real_resolver = nullptr;
 
 VKAPI_ATTR void VKAPI_CALL scarceMemory(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties2* properties) {
@@ -57,7 +58,7 @@ TEST_CASE("the driver's budget is kept where the driver tells it", "[vulkan]") {
     if (large) continue;
     CHECK(large.error().code == Code::out_of_memory);
     CHECK(large.error().message.find("1048576") != std::string::npos);
-    // A block of the usual size is too large here, so a smaller one is used.
+    // The budget does not allow a block of the usual size, so a smaller block is used.
     CHECK(memory.buffer(MemoryKind::device, 1 << 18));
     CHECK(memory.statistics().reserved <= 1 << 19);
   }
@@ -75,8 +76,8 @@ TEST_CASE("ranges never overlap, and all come back", "[vulkan]") {
       if (taken.empty() || random() % 5 < 3) {
         const uint64_t bytes = 1 + random() % (size / (1 + random() % 64));
         const auto offset = ranges.take(bytes);
-        // A simple reference implementation: scans all free ranges between taken ones, and returns the first of the
-        // shortest that suffice.
+        // A simple reference allocator: scans all free ranges between used ones, and returns the first of the shortest
+        // ranges that suffice.
         const uint64_t needed = (bytes + granule - 1) / granule * granule;
         std::optional<uint64_t> best;
         uint64_t shortest = UINT64_MAX, end = 0;
@@ -123,17 +124,18 @@ TEST_CASE("each kind of memory is looked for where it is", "[vulkan]") {
   const auto choose = [](const std::vector<VkMemoryPropertyFlags>& types, MemoryKind kind, bool unified) {
     return chooseMemoryType(memoryOf(types), ~0u, kind, unified);
   };
-  // A graphics card, a part of whose memory is visible to the host, with the memory types as drivers list them.
+  // The memory types of a graphics card that makes a part of its memory visible to the host, in the order in which
+  // drivers list them.
   const std::vector<VkMemoryPropertyFlags> card{0, kNear, kSeen, kSeen | kCached, kNear | kSeen};
   CHECK(choose(card, MemoryKind::device, false) == 1);
   CHECK(choose(card, MemoryKind::upload, false) == 2);
   CHECK(choose(card, MemoryKind::readback, false) == 3);
-  // A device that shares all memory with the host.
+  // The memory types of a device that shares all memory with the host.
   const std::vector<VkMemoryPropertyFlags> shared{kNear, kNear | kSeen, kNear | kSeen | kCached};
   CHECK(choose(shared, MemoryKind::device, true) == 1);
   CHECK(choose(shared, MemoryKind::upload, true) == 1);
   CHECK(choose(shared, MemoryKind::readback, true) == 2);
-  // A single memory type, as on software devices.
+  // Devices with a single memory type, as software devices are.
   for (const MemoryKind kind : {MemoryKind::device, MemoryKind::upload, MemoryKind::readback}) {
     CHECK(choose({kNear | kSeen | kCached}, kind, true) == 0);
   }
@@ -141,7 +143,7 @@ TEST_CASE("each kind of memory is looked for where it is", "[vulkan]") {
   const VkMemoryPropertyFlags stale = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | kCached;
   CHECK(choose({kNear, kSeen, stale}, MemoryKind::readback, false) == 2);
   CHECK(choose({kNear, kSeen, stale}, MemoryKind::upload, false) == 1);
-  // A device without cached memory, and one without memory visible to the host.
+  // A device without cached memory, and a device without memory that is visible to the host.
   CHECK(choose({kNear, kSeen}, MemoryKind::readback, false) == 1);
   CHECK(choose({kNear}, MemoryKind::upload, false) == -1);
   // Memory types with other requirements, such as protected memory, are not chosen.
@@ -195,7 +197,7 @@ TEST_CASE("buffers never overlap, and keep what was written", "[vulkan]") {
     for (const Held& one : held) REQUIRE(unspoilt(one));
   }
   CHECK(memory.statistics().used == 0);
-  CHECK(memory.statistics().blocks <= 2);  // one spare of each kind
+  CHECK(memory.statistics().blocks <= 2);  // the allocator keeps one spare block of each kind
 }
 
 TEST_CASE("blocks double, and what is larger than any has its own", "[vulkan]") {
@@ -237,10 +239,10 @@ TEST_CASE("too much memory is refused, and what is there stays", "[vulkan]") {
   REQUIRE(!over);
   CHECK(over.error().code == Code::limit);
   CHECK(over.error().message.find("262144") != std::string::npos);
-  // The cap does not allow another full block, but one of the requested size.
+  // The cap does not allow another block of the full size, but one of the requested size.
   auto rest = memory.buffer(MemoryKind::device, 150'000);
   CHECK(rest);
-  // An unused block is released to make room for one of another kind.
+  // Releases an unused block to make room for one of another kind.
   rest = Buffer();
   rest = memory.buffer(MemoryKind::device, 100'000);
   CHECK(rest);

@@ -24,7 +24,7 @@ void writeAll(const fs::path& path, std::span<const std::byte> bytes) {
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// The cache data that a driver would write: its header, and some more bytes.
+/// The cache data that a driver would write: a header, and some more bytes.
 std::vector<std::byte> driverData(const DeviceInfo& info) {
   VkPipelineCacheHeaderVersionOne header{};
   header.headerSize = sizeof header;
@@ -94,7 +94,7 @@ TEST_CASE("a pipeline cache lasts from run to run, and mends what is damaged", "
   REQUIRE(fs::exists(file));
   const std::vector<std::byte> saved = readAll(file);
   CHECK(unpackPipelineCache(device.device->info(), saved));
-  // If the file already has everything, it is not written again.
+  // If the file already has all pipelines, it is not written again.
   const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(1);
   fs::last_write_time(file, long_ago);
   CHECK(run());
@@ -104,7 +104,7 @@ TEST_CASE("a pipeline cache lasts from run to run, and mends what is damaged", "
   writeAll(file, damaged);
   CHECK(!run());
   CHECK(run());
-  writeAll(file, packPipelineCache(driverData(someDevice())));  // data of another device in this device's file
+  writeAll(file, packPipelineCache(driverData(someDevice())));  // the file of this device has data of another device
   CHECK(!run());
   writeAll(file, {});
   CHECK(!run());

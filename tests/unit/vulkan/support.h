@@ -17,7 +17,7 @@
 
 namespace sgm::vulkan {
 
-/// A device with the validation layer, which must report nothing until the end.
+/// A device with the validation layer, which must report nothing until the device's end.
 struct TestDevice {
   std::shared_ptr<MessageLog> log = std::make_shared<MessageLog>();
   std::unique_ptr<Device> device;

@@ -1,4 +1,4 @@
-// Tests bodies of whole batches against polygonizeBody.
+// Tests the bodies that the shaders make for whole batches against polygonizeBody.
 
 #include "catch.h"
 #include "mesh/tables.h"
@@ -11,7 +11,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// The census that the shader must compute for the rows of one body: numbers of vertices, indices and active cells
+/// The counts that the shader must compute for each row of one body: numbers of vertices, indices and active cells
 /// before the row, and of active cells in it.
 std::vector<std::array<uint32_t, 4>> rowsOf(const ChunkSamples& samples, const MeshPart& part) {
   constexpr size_t kSide = kChunkSamples;

@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// The places of a body's vertices, attributes 0: a workgroup a chunk, an invocation a row.
+// Writes the positions of a body's vertices, with attributes of 0. One workgroup for each chunk, one invocation for
+// each row.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/edges.glsl"

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
-// Adds the vertices' share to a part's hash: a workgroup a part.
+// Adds the vertices' share to the hash of a part; one workgroup for each part.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/hash.glsl"

@@ -13,7 +13,7 @@
 
 namespace sgm::test {
 
-/// A seam to mesh.
+/// A seam between a chunk and a coarser one, to be meshed.
 struct SeamInput {
   size_t chunk;
   Face face;
@@ -32,24 +32,26 @@ struct Room {
   uint32_t vertices, indices, cells;
 };
 
-/// The shaders' output. Parts are the bodies, then the seams. Guard words follow the capacity of each buffer.
+/// The shaders' output. The parts are the bodies, followed by the seams. Guard words follow the capacity of each
+/// buffer.
 struct MeshOutput {
   batch::Head head;
   std::vector<batch::Part> parts;
   std::vector<Vertex> vertices;
   std::vector<uint32_t> indices;
-  /// 33^2 rows for each body: numbers of vertices, indices and cells before the row, and of active cells in it.
+  /// For each body, the counts of its 33^2 rows: vertices, indices and active cells before the row, and active cells in
+  /// it.
   std::vector<std::array<uint32_t, 4>> rows;
-  bool inputs_kept;  ///< whether samples, signs, records and tables are unchanged
-  bool guards_kept;  ///< whether everything after the used elements is unchanged
+  bool inputs_kept;  ///< whether the shaders left samples, signs, records and tables unchanged
+  bool guards_kept;  ///< whether the shaders left everything after the used elements unchanged
 };
 
-/// The compiled shaders. create() prints the reason and returns nullopt if there is no device.
+/// The compiled shaders on a device. create() prints the reason and returns nullopt if there is no device.
 class Mesher {
  public:
   static std::optional<Mesher> create();
 
-  /// groups: number of workgroups of the kernel for triangles; 0: as many as it computes itself.
+  /// Runs the shaders. groups: number of workgroups of the kernel for triangles; 0: as many as the shaders compute.
   MeshOutput run(const MeshInput& input, Room room, uint32_t groups = 0) const;
 
   std::vector<std::string> messages() const { return compute_.messages(); }
@@ -64,7 +66,7 @@ class Mesher {
 /// Meshes the same input on the CPU, including hashes.
 std::vector<MeshPart> meshOnCpu(const MeshInput& input);
 
-/// The exact capacities for these parts.
+/// The capacities that exactly suffice for these parts.
 Room roomFor(const MeshInput& input, const std::vector<MeshPart>& parts);
 
 uint32_t activeCells(const ChunkSamples& samples);

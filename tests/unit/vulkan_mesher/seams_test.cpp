@@ -18,7 +18,7 @@ TEST_CASE("shaders mesh seams to the bytes of the CPU", "[vulkan_mesher]") {
     CAPTURE(seed);
     std::mt19937_64 random(seed);
     MeshInput input = randomInput(random, 1 + random() % 8);
-    // Independent random signs give the longest loops.
+    // Random signs that are independent of each other give the longest loops.
     const double density = std::uniform_real_distribution<double>(0.2, 0.8)(random);
     const LatticeField noise = [=](Int3 p, int level) {
       return randomQ(pointHash(seed + static_cast<uint64_t>(level), p), density);

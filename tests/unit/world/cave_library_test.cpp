@@ -14,7 +14,7 @@ namespace {
 
 const char* const kLake = "layer lake cell 32m reach 1m { start Lake; }\n";
 
-/// Halls and a lake in a world that is divided into cubes.
+/// Halls and a lake in a world that is divided into cubic grammar cells.
 const char* const kSunkenHalls =
     "sgm 1; import \"std/cave.sgm\" as cave; units m; param level = -3m in -200m..200m;\n"
     "domain infinite solid limestone;\n"
@@ -59,7 +59,7 @@ TEST_CASE("water fills all that is open below its level, and nothing above", "[s
         return std::make_unique<WorldField>(std::move(settings), std::pmr::get_default_resource());
       };
       const auto surface = static_cast<int32_t>(level * kUnitsPerMetre);
-      // Boxes around the surface, across cells' borders, and far from the origin.
+      // The boxes lie around the water's surface, across the borders of cells, and far from the origin.
       const Int3 low{static_cast<int32_t>(random() % 4000) * 512 - 1'000'000, surface - 20 * 1024,
                      static_cast<int32_t>(random() % 4000) * 512 - 1'000'000};
       const IntBox box{low, {low.x + 64 * 1024, low.y + 40 * 1024, low.z + 64 * 1024}};
@@ -72,7 +72,7 @@ TEST_CASE("water fills all that is open below its level, and nothing above", "[s
         if (i % 4 == 0) p.y = surface + static_cast<int32_t>(random() % 9) - 4;
         if (p.y != surface) points.push_back(p);
       }
-      // Also points in corners and on faces of cells.
+      // Some points lie in the corners and on the faces of cells.
       for (int i = 0; i < 500; ++i) {
         const int32_t cell = 32 * 1024;
         Int3 p = points[static_cast<size_t>(random() % points.size())];
@@ -124,7 +124,7 @@ TEST_CASE("flowstone lies on floors, and is as high as it says", "[std][costly]"
       const Int3 p = mound.origin;
       floor.push_back(p);
       above.push_back({p.x, p.y + 1, p.z});
-      inside.push_back({p.x, p.y + 300, p.z});  // passages a metre wide are half a metre high
+      inside.push_back({p.x, p.y + 300, p.z});  // the passages are a metre wide and half a metre high
     }
     const auto isSolid = [](bool solid) { return solid; };
     const std::vector<bool> on_rock = solidAt(**rock, floor), in_void = solidAt(**rock, above),
@@ -144,8 +144,8 @@ TEST_CASE("what stands in the cave with a lake has rock under it that does not f
   const IntBox box{{0, -30 * 1024, 0}, {256 * 1024, 30 * 1024, 256 * 1024}};
   const auto rock = world.compileBelow(0, box.grown(8 * 1024));
   REQUIRE(rock);
-  // Checks the rock `below` units under a use of the rule: `radius` is two units less than the rule's query asked for,
-  // since places are rounded.
+  // Checks that there is rock `below` units under a use of the rule. radius: two units less than the radius that the
+  // rule's query requires, because positions are rounded.
   const auto bears = [&](const char* rule, int32_t below, int32_t radius) {
     const auto found = world.instances(ruleNamed(*world.settings().program, rule), box, 100'000);
     REQUIRE(found);

@@ -24,7 +24,7 @@ bool has(CellCache& cache, int32_t i) {
   return found[0] != nullptr;
 }
 
-/// A cache whose capacity is this number of cells without shapes.
+/// A cache whose capacity is `cells` cells without shapes.
 CellCache cacheOf(size_t cells) {
   return CellCache(cells * DerivedCell(GrammarChunk{}, std::pmr::get_default_resource()).bytes,
                    std::pmr::get_default_resource());
@@ -72,7 +72,7 @@ TEST_CASE("cells that nobody asks for any more go before the cache is full, down
       REQUIRE(cache.get(keyOf(i), nothing));
       REQUIRE(has(cache, 0));
     }
-    // The last 1,024 cells, or a quarter of the capacity, are cached, and the one that is used all the time.
+    // The cache keeps the last 1,024 cells, or a quarter of its capacity, and the cell that is used all the time.
     const size_t kept = std::max<size_t>(1025, room / 4);
     CHECK(cache.stats().cells >= kept);
     CHECK(cache.stats().cells <= kept + 2);
@@ -81,7 +81,7 @@ TEST_CASE("cells that nobody asks for any more go before the cache is full, down
   }
   CellCache cache = cacheOf(100'000);
   for (int32_t i = 0; i < 24'000; ++i) REQUIRE(cache.get(keyOf(i), nothing));
-  CHECK(has(cache, 1));  // its size is below a quarter of the limit
+  CHECK(has(cache, 1));  // the cell's size is below a quarter of the limit
 }
 
 TEST_CASE("a cell larger than the cache comes, and goes with the next") {
@@ -98,7 +98,7 @@ TEST_CASE("adopted cells that were asked for outlive those that were not") {
   for (const int32_t i : {0, 1, 2}) REQUIRE(from.get(keyOf(i), nothing));
   to.adopt(from, [](const DerivedCell&) { return true; });
   CHECK(to.stats().cells == 3);
-  CHECK(has(to, 0));  // it would be dropped next; this use prevents that
+  CHECK(has(to, 0));  // the cell would be dropped next; this use prevents that
   REQUIRE(to.get(keyOf(3), nothing));
   CHECK(has(to, 0));
   CHECK_FALSE(has(to, 1));
@@ -134,7 +134,7 @@ TEST_CASE("threads that find, take and lose cells at one time all get theirs", "
       const auto i = static_cast<int32_t>(random() % 9);
       const auto derive = [&]() -> Result<GrammarChunk> {
         GrammarChunk chunk;
-        chunk.parameters = static_cast<uint64_t>(i);  // a value that differs for each chunk
+        chunk.parameters = static_cast<uint64_t>(i);  // a different value for each chunk
         return chunk;
       };
       const auto cell = cache.get(keyOf(i), derive);

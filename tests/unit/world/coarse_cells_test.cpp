@@ -1,4 +1,5 @@
-// Tests that coarse levels, which derive only the visible part of a cell, have the same meshes as if all was derived.
+// Tests that coarse levels, for which only the visible part of a cell is derived, have the same meshes as if everything
+// was derived.
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,7 @@ namespace {
 
 constexpr int32_t kFinest = 128;
 
-/// A chunk's program from completely derived cells, without cache.
+/// The program of a chunk from completely derived cells, without a cache.
 FieldProgram fromWholeCells(const WorldField& world, const IntBox& box, int level) {
   const WorldFieldSettings& s = world.settings();
   const int32_t cell_edge = world.cellAt(level);
@@ -47,7 +48,7 @@ FieldProgram fromWholeCells(const WorldField& world, const IntBox& box, int leve
   return *std::move(program);
 }
 
-/// Puts `detail` in front of many of the rules' shapes: also in blends, meets, sums and cuts.
+/// Puts `detail` in front of many of the rules' shapes, also inside of blends, meets, sums and cuts.
 std::string withDetails(const std::string& text, std::mt19937& random) {
   std::string out;
   for (size_t at = 0; at < text.size(); ++at) {
@@ -63,7 +64,7 @@ std::string withDetails(const std::string& text, std::mt19937& random) {
 }
 
 bool sameMesh(const ChunkMesh& a, const ChunkMesh& b) {
-  // Signs are omitted where they are proven to be equal; with boxes of other sizes, this may not be proven.
+  // Signs are omitted if they are proven to be equal; boxes of other sizes may prevent this proof.
   const bool uniform = a.signs.empty() || b.signs.empty();
   return a.body.hash == b.body.hash && a.solid_samples == b.solid_samples && (uniform || a.signs == b.signs) &&
          a.body.indices == b.body.indices;
@@ -79,7 +80,8 @@ std::string randomRules(std::mt19937& random, unsigned round) {
   return round % 3 == 0 ? text + made.edits() : text;
 }
 
-/// A random combined shape, most of whose parts have levels of their own, up to 20 m in front of the grammar cell.
+/// A random combined shape; most of its parts are visible only at some levels. It lies up to 20 m outside of the
+/// grammar cell.
 std::string partedShape(std::mt19937& random, int depth) {
   const auto any = [&](int below) { return static_cast<int>(random() % static_cast<unsigned>(below)); };
   const auto leaf = [&] {
@@ -107,20 +109,20 @@ std::string partedShapes(std::mt19937& random, unsigned) {
   return out + "}\n";
 }
 
-/// Numbers of shapes that were left out because of the level, and because they exceed the reach.
+/// Numbers of shapes that were left out: because the level does not show them, and because they exceed the reach.
 struct LeftOut {
   size_t by_level = 0, by_reach = 0;
 };
 
-/// Compares the levels of random rules. reach: 0 for the declared and proven reach; otherwise units, beyond which
-/// shapes are left out.
+/// Compares the levels of random grammars. reach: 0 for the declared and proven reach; otherwise the distance in units
+/// beyond which shapes are left out.
 LeftOut compareLevels(unsigned seed, std::string (*rules)(std::mt19937&, unsigned), int32_t reach, unsigned tries) {
   std::mt19937 random(seed);
   const auto jobs = *makeThreadPool(1);
   const auto backend = *makeBackend({}, *jobs, std::pmr::get_default_resource());
   size_t surfaces = 0;
   LeftOut out;
-  // In few random grammars a coarse level omits something, so rounds continue until it has happened once.
+  // Coarse levels omit something in few random grammars, so rounds continue until it has happened once.
   for (unsigned round = 0; round < tries || (reach == 0 && out.by_level == 0 && round < 1000); ++round) {
     const std::string text = rules(random, round);
     const CompileResult compiled = compileGrammar(text, "test.sgm");

@@ -18,7 +18,7 @@ using namespace sgm;
 
 namespace {
 
-// A grammar with the domain only.
+// A grammar with nothing but its domain.
 const std::string kNothing = "layer none cell 64m reach 1m { start None; }\nrule None { }\n";
 const std::string kEmpty = "sgm 1; units m;\ndomain infinite empty;\n" + kNothing;
 const std::string kSolid = "sgm 1; units m;\ndomain infinite solid;\n" + kNothing;
@@ -94,7 +94,8 @@ double distanceTo(const Brush& b, Int3 p) {
     const double t = square > 0 ? std::clamp((x * ax + y * ay + z * az) / square, 0.0, 1.0) : 0.0;
     return std::hypot(x - t * ax, y - t * ay, z - t * az) - b.radius;
   }
-  // Rotated back by the conjugate quaternion: v + 2 w (u x v) + 2 u x (u x v), where u is the negated vector part.
+  // Rotates the position by the conjugate quaternion: v + 2 w (u x v) + 2 u x (u x v), where u is the negated vector
+  // part.
   double q[4], length = 0;
   for (size_t i = 0; i < 4; ++i) length += double{b.turn[i]} * double{b.turn[i]};
   for (size_t i = 0; i < 4; ++i) q[i] = double{b.turn[i]} / std::sqrt(length);
@@ -131,7 +132,7 @@ TEST_CASE("a brush is solid or void inside, of its material, and nothing far awa
   for (uint32_t seed = 1; seed <= rounds(200); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
-    // Also far from the origin, where the integer grid is the same.
+    // Every second seed tests positions far from the origin, where the integer grid is the same.
     const int32_t far = seed % 2 ? 0 : 2'000'000'000;
     const IntBox around = IntBox{{far, -far, far}, {far, -far, far}}.grown(3000);
     Brush brush = randomBrush(random, around, 4000);
@@ -184,7 +185,7 @@ TEST_CASE("later brushes lie above earlier ones, and an undo brings every bit ba
     CHECK(sameBits(stages[i], valuesOf(compiled(world, hall, 0, log.snapshot().get())->view(), places)));
   }
 
-  // Dug and then filled is filled; filled and then dug is dug.
+  // A place that is dug and then filled is solid; a place that is filled and then dug is void.
   for (const bool cut_last : {false, true}) {
     EditLog order({1});
     const Int3 middle{96 * 1024, 96 * 1024, 96 * 1024};
@@ -198,10 +199,10 @@ TEST_CASE("later brushes lie above earlier ones, and an undo brings every bit ba
 
 TEST_CASE("a smooth brush is the round union with what is there, as wide as it says and no wider", "[edits]") {
   const WorldField world = worldOf(kEmpty);
-  const int32_t k = 800;  // both influence boxes contain all places
+  const int32_t k = 800;  // the influence boxes of both brushes contain all tested places
   for (const bool cut : {false, true}) {
     CAPTURE(cut);
-    // A cut from a large ball and an added ball are mirror images: their fields are, too.
+    // Cutting from a large ball and adding a ball are mirror images, so the fields are as well.
     const Brush ground = sphere({0, -20'000, 0}, 20'000, false), brush = sphere({0, 600, 0}, 1000, cut, k);
     EditLog log({1}), below({1});
     REQUIRE(below.add(ground));
@@ -290,7 +291,7 @@ TEST_CASE("a brush shows at every level whose cells are no wider than it is thic
 }
 
 TEST_CASE("edited frames of several levels are closed, across every border", "[edits]") {
-  // At coarse levels, drips, octaves and small brushes are omitted, so the levels' fields differ.
+  // Coarse levels omit drips, octaves of noise and small brushes, so the levels' fields differ.
   const Int3 middle{96 * 1024, 96 * 1024, 96 * 1024};
   const WorldField world(settingsOf(yardstick("cave.sgm"), 128, 3), std::pmr::get_default_resource());
   for (uint32_t seed = 1; seed <= rounds(2); ++seed) {
@@ -304,7 +305,7 @@ TEST_CASE("edited frames of several levels are closed, across every border", "[e
     tree.split({2, {2 * top.x + 1, 2 * top.y, 2 * top.z}});
     tree.split({1, {4 * top.x + 2, 4 * top.y + 1, 4 * top.z}});
     refineToRules(tree);
-    // Edits around corners of chunks, where borders and seams of levels meet.
+    // The edits lie around corners of chunks, where borders and seams of several levels meet.
     EditLog log({1});
     for (int i = 0; i < 60; ++i) {
       const int32_t step = kChunkCells * 128;

@@ -17,7 +17,7 @@ inline Int3 randomPlace(std::mt19937& random, const IntBox& box) {
   return p;
 }
 
-/// A random brush at a place in the box, with sizes up to `size` units.
+/// A random brush at a position in the box; its sizes are up to `size` units.
 inline Brush randomBrush(std::mt19937& random, const IntBox& box, int32_t size) {
   Brush b;
   b.shape = static_cast<Brush::Shape>(random() % 3);

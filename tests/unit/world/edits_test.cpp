@@ -38,7 +38,7 @@ std::vector<std::vector<std::byte>> shown(const EditLog& log, const IntBox& box,
   return bytes;
 }
 
-// The visible brushes by definition: all brushes in order, except those hidden by the latest undo or redo of them.
+// The visible brushes by definition: all brushes in order, except those that their latest undo or redo hides.
 std::vector<std::vector<std::byte>> expected(const EditLog& log, const IntBox& box, int32_t cell = 1) {
   std::vector<EditOperation> operations(log.operations().begin(), log.operations().end());
   std::sort(operations.begin(), operations.end(),
@@ -96,14 +96,14 @@ TEST_CASE("worlds that have exchanged their edits in any order are equal", "[edi
         case 0:
           letters.push_back(log.exportBytes(random() % (log.size() + 1)));
           break;
-        case 1:  // delivered late, or twice
+        case 1:  // delivers the message later, or twice
           if (!letters.empty()) REQUIRE(log.import(letters[random() % letters.size()]));
           break;
         default:
           edit(random, log);
       }
     }
-    // Operations arrive one by one in any order at a world without edits; an undo may arrive before its brush.
+    // The operations arrive one by one, in any order, at a world without edits; an undo may arrive before its brush.
     std::vector<std::vector<std::byte>> all;
     for (const EditLog& log : logs) all.push_back(log.exportBytes());
     EditLog last = logOf(99);
@@ -138,7 +138,7 @@ TEST_CASE("a place's brushes are found, in order, at every level; old snapshots 
     const std::shared_ptr<const EditSnapshot> none = log.snapshot();
     for (int i = 0; i < 150; ++i) {
       edit(random, log);
-      // Some brushes at the ends of the world, and some of the largest size.
+      // Some brushes lie at the ends of the world, and some have the largest size.
       if (i % 50 == 0) REQUIRE(log.add(ball({INT32_MIN + 3000, INT32_MAX - 3000, 0}, 2000)));
       if (i % 70 == 0) REQUIRE(log.add(ball({5, 5, 5}, kMaxBrushSize, true)));
       const Int3 at = randomPlace(random, kPlaces);
@@ -169,7 +169,7 @@ TEST_CASE("an undo hides, an undo of it shows again, and each says what changed"
   const EditLog::Edited hidden = *log.undo(laid.id);
   CHECK(hidden.box == brushBounds(brush));
   CHECK(log.snapshot()->brushes() == 0);
-  CHECK(log.undo(laid.id)->box.empty());  // it is hidden already
+  CHECK(log.undo(laid.id)->box.empty());  // the brush is hidden already
   const EditLog::Edited again = *log.undo(hidden.id);
   CHECK(again.box == brushBounds(brush));
   CHECK(log.snapshot()->brushes() == 1);
@@ -181,7 +181,7 @@ TEST_CASE("an undo hides, an undo of it shows again, and each says what changed"
   CHECK(unknown.error().code == Code::invalid_argument);
   CHECK(unknown.error().message == "there is no edit 77 of author 7 to undo");
 
-  // Imported edits: a box is returned for each brush that appears or disappears, none for known or hidden ones.
+  // import() returns a box for each brush that appears or disappears, and none for known or hidden brushes.
   EditLog other = logOf(8);
   CHECK(other.import(log.exportBytes())->empty());
   CHECK(other.hash() == log.hash());
@@ -190,7 +190,7 @@ TEST_CASE("an undo hides, an undo of it shows again, and each says what changed"
   REQUIRE(came.size() == 1);
   CHECK(came[0] == brushBounds(brush));
   CHECK(other.import(log.exportBytes())->empty());
-  // New edits continue the numbers and times of known ones.
+  // New edits continue the numbers and times of the imported edits.
   EditLog reopened = logOf(7);
   REQUIRE(reopened.import(log.exportBytes()));
   CHECK(reopened.add(brush)->id == EditId{7, log.size() + 1});
@@ -239,7 +239,7 @@ TEST_CASE("damaged and hostile bytes change nothing", "[edits]") {
       accepted += !refused(bad);
     }
   }
-  // Damaged messages whose checksum was recomputed, as an attacker would send them.
+  // Damages messages and recomputes their checksums, as an attacker would.
   for (uint32_t round = 0; round < rounds(3000); ++round) {
     std::vector<std::byte> bad(good.begin(), good.end() - 8);
     for (int32_t n = within(random, 1, 3); n > 0; --n) bad[8 + random() % (bad.size() - 8)] = std::byte(random() % 256);
@@ -258,7 +258,7 @@ TEST_CASE("damaged and hostile bytes change nothing", "[edits]") {
   }
   CHECK(accepted == 0);
 
-  // If a message has one invalid operation, none of its operations are imported.
+  // If one operation of a message is invalid, none of the message's operations are imported.
   std::vector<EditOperation> list(log.operations().begin(), log.operations().end());
   list[0].brush.from.x += 1;
   EditLog knows = logOf(3);
@@ -380,5 +380,5 @@ TEST_CASE("ten thousand brushes do not make the next one slow", "[edits]") {
   std::cout << "importing " << log.size() << " edits: " << import << " ms\n";
   std::cout << "an edit over 10,000 brushes: " << each << " us; a chunk's " << found.size() << " brushes: " << query
             << " us\n";
-  CHECK(each < 5000);  // a generous limit, for sanitizers: a millisecond would suffice for 60 frames a second
+  CHECK(each < 5000);  // a generous limit, because of sanitizers; for 60 frames a second, a millisecond would suffice
 }

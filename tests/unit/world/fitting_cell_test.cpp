@@ -39,7 +39,7 @@ TEST_CASE("the cells that are advised fit, and much smaller ones seldom do") {
     }
     const int level = static_cast<int>(random() % 4);
     const auto cell = static_cast<int32_t>(1 + random() % 2048);
-    // A box across a corner of the grid overlaps eight chunks with any cell, so fewer can never suffice.
+    // A box across a corner of the grid overlaps eight chunks at any cell size, so a smaller limit could never be kept.
     const uint64_t most = 8 * regions.size() + random() % 5000;
     const std::optional<double> edge = fittingCell(regions, level, cell, most);
     if (!edge) continue;
@@ -47,7 +47,7 @@ TEST_CASE("the cells that are advised fit, and much smaller ones seldom do") {
     ++advised;
     CHECK(chunksOf(regions, *edge, level) <= most);
     CHECK(std::floor(*edge * kUnitsPerMetre + 0.5) >= cell);
-    // The suggested cell has two significant digits at most.
+    // The suggested cell size has two significant digits at most.
     double digits = *edge;
     while (digits < 10) digits *= 10;
     while (digits >= 100) digits /= 10;

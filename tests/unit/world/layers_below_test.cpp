@@ -25,7 +25,7 @@ bool holds(const Ball& ball, Int3 p) {
   return square <= int64_t{ball.radius} * ball.radius;
 }
 
-/// A lattice of positions in the ball, and as many random ones.
+/// Positions in the ball: a lattice of them, and as many random ones.
 std::vector<Int3> positionsIn(std::mt19937& random, const Ball& ball) {
   std::vector<Int3> found{ball.centre};
   for (int k = 0; k < 1000; ++k) {
@@ -65,7 +65,8 @@ Sampled sampled(const WorldField& world, uint32_t layer, const std::vector<Int3>
   return out;
 }
 
-/// A hall in rock whose walls are displaced by `amp` metres of noise, and a layer that queries it everywhere.
+/// A hall in rock whose walls are displaced by `amp` metres of noise, and a layer that queries the hall's layer
+/// everywhere.
 std::string hall(const std::string& amp, const std::string& condition) {
   return "sgm 1; import \"std/rock.sgm\" as rock; domain infinite solid;\n"
          "param width = 9m in 6m..12m; param other = 1 in 0..2;\n"
@@ -102,7 +103,7 @@ TEST_CASE("what a query proves of a ball holds at every position in it, in any w
   CAPTURE(seed);
   std::mt19937 random(seed);
   size_t open = 0, solid = 0;
-  // Rounds continue until both kinds, open and solid, were proven.
+  // Rounds continue until both an open and a solid ball were proven.
   for (unsigned round = 0; round < rounds(60) || ((open == 0 || solid == 0) && round < 600); ++round) {
     const uint64_t rules = random();
     std::string text = RandomRules(rules).program(false);
@@ -142,8 +143,9 @@ TEST_CASE("a ball is decided wherever the field's slope leaves no doubt, also be
   const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
-  // The slope of the displacement, and the size of the smallest pieces, a 32nd of the radius, counted twice: for the
-  // pieces and for the bounds.
+  // kSlope: the largest slope of the displaced field. kPieces: 1 plus twice the diagonal of the proof's smallest
+  // pieces, in radii of the ball: their edge is 1/32 of the radius. One diagonal is for the pieces, the other for the
+  // bounds.
   constexpr double kSlope = 1 + 3.7501 * 1.5 / 16, kPieces = 1.12;
   size_t among_crests = 0;
   const WorldField world(settingsOf(hall("1.5m", "query clear of net"), 512, seed), std::pmr::get_default_resource());
@@ -173,7 +175,7 @@ TEST_CASE("what is asked decides about shapes: the same in any order, and as the
     const Sampled field = sampled(world, 0, positionsIn(random, {a.frame.origin, 1024}));
     CHECK(std::all_of(field.q.begin(), field.q.end(), [](int32_t q) { return q >= 0; }));
   }
-  // All anchors that are a little farther from the walls than required exist.
+  // Every anchor that is a little farther from the walls than the query requires must exist.
   const WorldField all(settingsOf(hall("0.7m", "true"), 512), std::pmr::get_default_resource());
   for (const Anchor& a : anchorsIn(all, cells)) {
     const double there = double{sampled(world, 0, {a.frame.origin}).centre};

@@ -1,4 +1,5 @@
-// Tests that programs of chunks, which use only the cells proven to reach them, equal those from all cells.
+// Tests that the programs of chunks, which use only the cells whose proven bounds reach them, equal programs from all
+// cells.
 
 #include <algorithm>
 #include <cstring>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr int32_t kFinestCell = 256;
 
-/// Resolves imports of assets in a sample's folder.
+/// Resolves imports of assets to files in the sample's folder.
 class Beside : public ImportResolver {
  public:
   explicit Beside(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -60,7 +61,7 @@ std::vector<Sample> samples() {
   return out;
 }
 
-/// For each parameter with a range an end of the range, or the default.
+/// For each parameter with a range, one end of the range; for the others, the default.
 ParameterValues parametersAtEnds(const Program& program, std::mt19937& random) {
   ParameterValues values = ParameterValues::defaults(program);
   const bool keep = random() % 4 == 0;
@@ -80,7 +81,7 @@ WorldFieldSettings settingsAtEnds(std::shared_ptr<const Program> program, std::m
   return settings;
 }
 
-/// A grammar cell near the origin, anywhere, or at the end of the world.
+/// A random grammar cell: near the origin, anywhere, or at the end of the world.
 Int3 anyCell(const Layer& layer, std::mt19937& random) {
   Int3 cell;
   const auto kind = random() % 3;
@@ -96,7 +97,7 @@ Int3 anyCell(const Layer& layer, std::mt19937& random) {
   return cell;
 }
 
-/// The result of compile(), from all cells whose declared reach meets the box.
+/// Compiles a program from all cells whose declared reach meets the box.
 FieldProgram fromAllInReach(const WorldField& world, const IntBox& box, int level) {
   const WorldFieldSettings& s = world.settings();
   const int32_t cell_edge = world.cellAt(level);
@@ -131,7 +132,7 @@ bool sameProgram(const FieldProgram& a, const FieldProgram& b) {
          std::equal(a.groups.begin(), a.groups.end(), b.groups.begin(), b.groups.end(), sameGroup);
 }
 
-/// A box of the size of a chunk at the border of a cell's shapes, or anywhere around them.
+/// A box of the size of a chunk, at the border of a cell's shapes or anywhere around them.
 IntBox boxAbout(const GrammarChunk& chunk, int32_t edge, std::mt19937& random) {
   Int3 at;
   if (!chunk.groups.empty()) {
@@ -156,7 +157,7 @@ void comparePrograms(const WorldField& world, std::mt19937& random, int boxes, C
     for (int axis = 0; axis < 3 && !isWhole(program.layers[layer]); ++axis)
       if (program.layers[layer].cell[axis] > 0) about[axis] = static_cast<int32_t>(random() % 3) - 1;
     const auto cell = world.cell(layer, about);
-    if (!cell) continue;  // the cell exceeds the limits of a cell
+    if (!cell) continue;  // the cell is too large for the limits of derivation
     const int level = static_cast<int>(random() % 4);
     const IntBox box = boxAbout((*cell)->chunk, 32 * world.cellAt(level), random);
     const auto walked = world.compile(box, level);
@@ -184,7 +185,7 @@ TEST_CASE("the groups of every sample lie within what is proven of its layers") 
         for (const int32_t cell_edge : {kFinestCell, kFinestCell << 4}) {
           CAPTURE(sample.name, layer, at.x, at.y, at.z, cell_edge, settings.seed, settings.parameters.values);
           const auto cell = world.cellFor(layer, at, cell_edge);
-          if (!cell) continue;  // the cell exceeds the limits of a cell
+          if (!cell) continue;  // the cell is too large for the limits of derivation
           const IntBox limit = shapeLimit(*sample.program, layer, at);
           for (const Group& group : (*cell)->chunk.groups) CHECK(limit.contains(group.bounds));
           for (const DeriveNote& note : (*cell)->chunk.notes) {
@@ -222,14 +223,14 @@ TEST_CASE("chunks of random rules and overrides have the program of all cells in
   std::mt19937 random(seed);
   Compared compared;
   size_t unproven = 0;
-  // A quarter of the random grammars does not compile, and few lack the proof, so rounds continue until both kinds
+  // A quarter of the random grammars does not compile, and few have no proof, so rounds continue until both kinds
   // occurred often enough.
   const auto enough = [&] { return compared.groups > 20 && unproven > 0; };
   for (unsigned round = 0; round < rounds(60) || (!enough() && round < 600); ++round) {
     RandomRules made(random());
     std::string text = made.program(round % 4 == 3);
     if (round % 3 == 0) text += made.edits();
-    // With a reach of 20 m, the proof fails for grammars whose shapes may extend farther.
+    // With a declared reach of 20 m, the proof fails for grammars whose shapes may extend farther.
     if (round % 5 == 0 && round % 4 != 3) text = replaced(text, "reach 150m", "reach 20m");
     const CompileResult compiled = compileGrammar(text, "test.sgm");
     if (!compiled.program) continue;
@@ -281,10 +282,10 @@ TEST_CASE("cells that cannot show in a chunk are not derived for it") {
   };
   CHECK(cellsFor(boxAt(20, 0, 20)) == 1);
   CHECK(cellsFor(boxAt(20, 0, 48)) == 1);
-  CHECK(cellsFor(boxAt(60, 0, 60)) == 0);  // a street without shapes
+  CHECK(cellsFor(boxAt(60, 0, 60)) == 0);  // this street has no shapes
   CHECK(cellsFor(boxAt(20, 50, 20)) == 0);
   CHECK(cellsFor(boxAt(20, -50, 20)) == 0);
-  // The anchor stands in the corner of the cell, away from its shapes.
+  // The anchor stands in a corner of the cell, away from the cell's shapes.
   const WorldField world(settings, std::pmr::get_default_resource());
   const auto anchors = world.anchors(boxAt(64, 0, 64));
   REQUIRE(anchors);
@@ -292,7 +293,7 @@ TEST_CASE("cells that cannot show in a chunk are not derived for it") {
   CHECK(world.cacheStats().misses == 1);
 }
 
-// In builds with assertions, such a shape ends the process.
+// Builds with assertions abort at a shape beyond its proven bound.
 #if defined(NDEBUG)
 TEST_CASE("a shape that passes what is proven ends there in every chunk, and a note tells") {
   WorldFieldSettings settings = settingsOf(

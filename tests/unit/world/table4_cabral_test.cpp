@@ -80,8 +80,8 @@ TEST_CASE("Cabral: textures keep their scale in every size", "[table4]") {
     const std::string asset = std::string(how).find("house") != std::string::npos ? "house" : "arcade";
     const TexelDensity density = densityOf(worldOf(
         "sgm 1; import \"assets/" + asset + ".glb\" as " + asset + "; start A; rule A { " + how + "; }", 64, 1));
-    // On every face, a tile is one metre; the triangles with which marching cubes cuts off edges and corners are
-    // slightly tilted, and thin parts, such as window frames as thick as a cell, have many of them.
+    // On every face, a tile is one metre. Marching cubes cuts off edges and corners by slightly tilted triangles, which
+    // are many on thin parts, such as window frames as thick as a cell.
     CHECK(density.middle == Approx(1).margin(0.002));
     CHECK(density.high == Approx(1).margin(0.01));
     CHECK(density.low > 0.87);

@@ -22,7 +22,7 @@ namespace {
 
 constexpr IntBox kPatch{{-200 * 1024, -60 * 1024, -200 * 1024}, {200 * 1024, 120 * 1024, 200 * 1024}};
 
-/// A box with clouds, which are few and far apart.
+/// A box that contains clouds, which are few and far apart.
 constexpr IntBox kSky{{-900 * 1024, 380 * 1024, -900 * 1024}, {900 * 1024, 480 * 1024, 900 * 1024}};
 
 WorldField worldOf(uint64_t seed, const char* parameter = "round", double value = 0.6) {
@@ -59,8 +59,8 @@ Int3 moved(Int3 p, double x, double y, double z) {
   return {p.x + units(x), p.y + units(y), p.z + units(z)};
 }
 
-/// Chunks around the tower at the world's origin, from the caves to the clouds; half of them with a sanitizer, since
-/// most of the time of these tests is spent on them.
+/// Chunks around the tower at the world's origin, from the caves to the clouds; half as many with a sanitizer, because
+/// these tests spend most of their time on the chunks.
 std::pmr::vector<PlacedChunk> chunksOf(const WorldField& world, int level) {
   std::vector<ChunkRequest> requests;
   const int32_t edge = kChunkCells * world.cellAt(level) / kUnitsPerMetre;
@@ -107,7 +107,7 @@ TEST_CASE("GK-M: clouds, towers and caves follow their parameters", "[table4]") 
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(3); ++round) {
     const uint64_t of = random();
-    // The height of a tower follows from its number of floors.
+    // The height of a tower is proportional to its number of floors.
     for (const int floors : {2, 5, 9}) {
       const WorldField world = worldOf(of, "floors", floors);
       const std::vector<Int3> towers = placesOf(world, "Tower");
@@ -118,8 +118,8 @@ TEST_CASE("GK-M: clouds, towers and caves follow their parameters", "[table4]") 
       }
     }
   }
-  // The number of clouds follows the cover. These eight worlds are fixed: clouds are grouped, so that eight random
-  // worlds would exceed these bounds once in some thousand runs.
+  // The number of clouds follows the parameter `cover`. The eight worlds are fixed: clouds are grouped, so that eight
+  // random worlds would exceed these bounds once in some thousand runs.
   size_t none = 0, some = 0, all = 0;
   for (uint64_t of = 1; of <= 8; ++of) {
     none += cloudsOf(worldOf(of, "cover", 0));
@@ -136,12 +136,12 @@ TEST_CASE("GK-M: one number morphs halls, storeys and clouds, and nothing else",
   const unsigned seed = testSeed();
   CAPTURE(seed);
   const WorldField cubes = worldOf(seed, "round", 0), balls = worldOf(seed, "round", 1);
-  // The upper edge of a storey, between two ledges: a box has it, a rounded box does not.
+  // The upper edge of a storey, between two ledges: a box has this edge, a rounded box does not.
   size_t edges_kept = 0, edges_gone = 0, storeys = 0;
   const auto found = cubes.instances(ruleNamed(*cubes.settings().program, "Tower"), kPatch, 1000);
   REQUIRE(found);
   for (const RuleInstance& tower : *found) {
-    // The narrowest towers are 9 m wide.
+    // This place lies in the narrowest towers, too, which are 9 m wide.
     const Int3 corner = moved(tower.origin, 4.4, 7.5 + 1.1, 4.4);
     ++storeys;
     edges_kept += solidAt(cubes, corner);
@@ -150,18 +150,18 @@ TEST_CASE("GK-M: one number morphs halls, storeys and clouds, and nothing else",
   CHECK(storeys >= 4);
   CHECK(edges_kept == storeys);
   CHECK(edges_gone > 0);
-  // The corner of a hall: void in a cube of 1.7 radii, rock in a ball.
+  // The corner of a hall: it is void if the hall is a cube with an edge of 1.7 radii, and rock if it is a ball.
   size_t corners_open = 0, corners_closed = 0, halls = 0;
   for (const Int3& middle : placesOf(cubes, "Hall")) {
     ++halls;
-    const Int3 corner = moved(middle, 6, -5.6, 6);  // in the smallest hall, of 8 m in radius
+    const Int3 corner = moved(middle, 6, -5.6, 6);  // lies in the smallest cube, too, of 8 m radius
     corners_open += !solidAt(cubes, corner);
     corners_closed += solidAt(balls, corner);
   }
   CHECK(halls >= 8);
   CHECK(corners_open == halls);
   CHECK(corners_closed > 0);
-  // Cells of layers that do not use the parameter are equal.
+  // The cells of layers that do not use the parameter stay equal.
   const Program& program = *cubes.settings().program;
   const auto readers = [&](uint32_t layer) {
     const auto cell = cubes.cell(layer, {0, 0, 0});
@@ -185,8 +185,8 @@ TEST_CASE("GK-M: welded, nothing hidden, textured, and far less from afar", "[ta
   for (const PlacedChunk& chunk : chunks) {
     if (chunk.mesh.body.indices.empty()) continue;
     parts.push_back({&chunk.mesh.body, chunk.grid, 0});
-    // At each vertex there is solid on the inner side and void on the outer side, so no surface lies inside another
-    // shape.
+    // At each vertex, there is solid on the inner side of the surface and void on the outer side, so no surface lies
+    // inside another shape.
     std::vector<int32_t> x, y, z;
     for (size_t v = 0; v < chunk.mesh.body.vertices.size(); v += 7) {
       const Vertex& vertex = chunk.mesh.body.vertices[v];
@@ -210,7 +210,7 @@ TEST_CASE("GK-M: welded, nothing hidden, textured, and far less from afar", "[ta
       wrong_side += q[i] >= 0 || q[i + 1] < 0;
     }
   }
-  // On nearly all of nearly every chunk, a texture tile has its stated size.
+  // On nearly all of the surface of nearly every chunk, a texture tile has its stated size.
   size_t textured = 0, even = 0;
   for (const PlacedChunk& chunk : chunks) {
     if (chunk.mesh.body.indices.size() < 300) continue;
@@ -221,7 +221,7 @@ TEST_CASE("GK-M: welded, nothing hidden, textured, and far less from afar", "[ta
   REQUIRE(textured > 20);
   CHECK(static_cast<double>(even) > 0.9 * static_cast<double>(textured));
   REQUIRE(vertices > 5000);
-  // Except at edges, where the normal belongs to only one of the sides.
+  // The few exceptions are at edges, where the normal belongs to only one of the two sides.
   CHECK(static_cast<double>(wrong_side) < 0.03 * static_cast<double>(vertices));
   const Result<WorldMesh> welded = weld(parts, {});
   REQUIRE(welded);

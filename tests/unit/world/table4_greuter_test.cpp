@@ -57,8 +57,8 @@ std::vector<int32_t> samplesAt(const WorldField& world, const std::vector<Int3>&
   return q;
 }
 
-/// For each place, the largest height at which the world is solid, exact to a unit; the world is solid below it and
-/// void above, and at most 64 m high.
+/// For each place, the height up to which the world is solid, exact to a unit. The world must be solid below and void
+/// above it, and at most 64 m high.
 std::vector<Int3> topsOf(const WorldField& world, std::vector<Int3> places) {
   for (Int3& p : places) p.y = 1;
   for (int32_t step = 1 << 15; step > 0; step /= 2) {
@@ -71,7 +71,7 @@ std::vector<Int3> topsOf(const WorldField& world, std::vector<Int3> places) {
   return places;
 }
 
-/// The slope of the field along an axis at each place, relative to 1.
+/// For each place, the slope of the field along an axis; 1 is the slope of a distance.
 std::vector<double> slopesAlong(const WorldField& world, const std::vector<Int3>& places, int axis) {
   constexpr int32_t kStep = 24;
   std::vector<Int3> at = places;
@@ -96,7 +96,7 @@ TEST_CASE("Greuter: fly any distance, return, and find identical buildings from 
   const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
-  // The cache holds only a few blocks, so that cells behind the viewer are soon dropped.
+  // The cache holds a few blocks only, so that cells behind the viewer are soon dropped.
   const size_t room = size_t{512} << 10;
   const uint64_t of = random();
   const WorldField world = city(of, room), large = city(of);
@@ -156,13 +156,13 @@ TEST_CASE("Greuter: every point of a roof is as steep as it says, on two sides o
     std::array<size_t, 4> sides{};
     for (size_t i = 0; i < places.size(); ++i) {
       const Int3 p = places[i];
-      // The distances to the eaves from which the roof slopes up.
+      // The distances of the place from the four eaves, from which the roof slopes up.
       std::array<int32_t, 4> eaves{512 * x - p.x, 512 * x + p.x, 512 * z - p.z, 512 * z + p.z};
       if (!hip) std::fill_n(eaves.begin() + (x >= z ? 0 : 2), 2, 1 << 20);
       const size_t nearest = static_cast<size_t>(std::min_element(eaves.begin(), eaves.end()) - eaves.begin());
       CAPTURE(p.x, p.y, p.z);
       REQUIRE(std::fabs(p.y - slope * eaves[nearest]) < 2 + 2 * slope);
-      // Away from edges, the field is the distance from a single slope.
+      // Away from the roof's edges, the field is the distance from a single slope.
       std::sort(eaves.begin(), eaves.end());
       const int32_t end = std::min(512 * x - std::abs(p.x), 512 * z - std::abs(p.z));
       if (eaves[1] - eaves[0] < 120 || end < 120 || p.y < 200) continue;

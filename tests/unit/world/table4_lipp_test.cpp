@@ -30,7 +30,7 @@ struct Palace {
   double storeyAt(double index) const { return -0.5 * height() + kGroundFloor + (index + 0.5) * storey(); }
 };
 
-/// The base grammar with random changes of other parts than the edited ones.
+/// The base grammar with random changes of parts that are not edited.
 std::string editedElsewhere(std::string text, std::mt19937& random) {
   const auto chance = [&] { return random() % 2 == 0; };
   if (chance()) text = replaced(text, "rule Pier {", "rule Chimney { box(1m, 3m, 1m); }\nrule Pier {");
@@ -73,7 +73,7 @@ bool isSolid(const WorldField& world, double x, double y, double z) {
   return q < 0;
 }
 
-/// The grammar without the edits below its rules.
+/// The grammar's text without the edits, which follow its rules.
 std::string lippWithoutEdits(const std::string& text) { return text.substr(0, text.find("// The gate:")); }
 
 }  // namespace
@@ -101,7 +101,7 @@ TEST_CASE("Lipp: edits of parts hold where they are while rules and parameters a
     CHECK(metres((*balconies)[1].origin.y) == Approx(palace.storeyAt(1)).margin(0.002));
     for (const RuleInstance& one : *balconies) CHECK(metres(one.origin.z) == Approx(0.5 * palace.deep).margin(0.002));
 
-    // In the wall, every bay has a window, and only the edited parts differ from the plain building.
+    // In the wall, every bay has a window; only the edited parts differ from the building without edits.
     const double wall = 0.5 * palace.deep - 0.1, gate = -0.5 * palace.height() + 1.2;
     CHECK_FALSE(isSolid(world, palace.bayAt(3) - 1, gate, wall));
     CHECK(isSolid(plain, palace.bayAt(3) - 1, gate, wall));

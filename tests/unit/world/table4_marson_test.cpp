@@ -30,7 +30,7 @@ TEST_CASE("Marson: every room of a house can be walked into from outside", "[tab
   const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
-  // Without windows, through which a walker could climb.
+  // The house without windows, through which a walker could climb.
   const std::string blind = replaced(sample("table4/marson.sgm"), "facade: Windows;", "facade: { }");
   for (unsigned round = 0; round < rounds(8); ++round) {
     const WorldFieldSettings settings = settingsOf(blind, 128, random());
@@ -40,18 +40,18 @@ TEST_CASE("Marson: every room of a house can be walked into from outside", "[tab
     const std::vector<Anchor>& rooms = *found;
     const auto notes = world.notes(kHouse, 128);
     REQUIRE(notes);
-    // The only notes are about links between rooms that do not touch in this house.
+    // The only notes are about links between rooms that do not touch each other in this house.
     for (const auto& note : *notes) CHECK(note.message.find("share no wall wide enough") != std::string::npos);
     std::set<uint16_t> names;
     for (const Anchor& anchor : rooms) names.insert(anchor.name);
-    REQUIRE(names.size() >= 7);  // and the corridor, if there is one
+    REQUIRE(names.size() >= 7);  // the rooms, and the corridor if there is one
     const WalkedVoid walked = walkedHouse(world);
     for (const Anchor& anchor : rooms) {
       CAPTURE(round, settings.seed, std::string_view(settings.program->names[anchor.name]));
-      // The anchor is at half the height of the room, above everything that stands in it.
+      // The anchor is at half the height of the room, above all furniture.
       CHECK(walked.reaches(anchor.frame.origin));
     }
-    // With doors too low for a walker, no room can be reached.
+    // If doors are too low for a walker, no room can be reached.
     const WorldFieldSettings shut = settingsOf(replaced(blind, "height 2.1m", "height 10cm"), 128, settings.seed);
     const WalkedVoid outside = walkedHouse(WorldField{shut, std::pmr::get_default_resource()});
     for (const Anchor& anchor : rooms) CHECK(!outside.reaches(anchor.frame.origin));

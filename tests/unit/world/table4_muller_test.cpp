@@ -21,7 +21,7 @@ constexpr double kFloor = 3.2, kGround = 5, kTop = 1.6, kBlind = 0.8;
 struct Plan {
   double floors = 8, wide = 20, deep = 14, bay = 2.6, balconies = 0.3;
   double height() const { return kGround + kFloor * floors + kTop; }
-  /// The rule of repeats: the number that fits best, rounded to the nearest whole number.
+  /// The number of repeats that fits best, rounded to the nearest whole number.
   int bays(double width) const { return static_cast<int>(std::floor((width - 2 * kBlind) / bay + 0.5)); }
 };
 
@@ -76,8 +76,8 @@ TEST_CASE("Mueller: a tower of any size has the floors and bays that its rules g
     CHECK(usesOf(world, "Window").size() == floors * bays);
     CHECK(usesOf(world, "Balcony").size() + usesOf(world, "Sill").size() == floors * bays);
     CHECK(usesOf(world, "Pillar").size() == 4 * (floors + 1));
-    // Windows are cut into the walls down to their glass, and there is wall between them. Checks each bay of each floor
-    // and side.
+    // Windows are cut into the walls down to their glass, and the wall between them is solid. Checks each bay of each
+    // floor and side.
     const double bottom = -0.5 * plan.height();
     size_t blind = 0, open = 0, glazed = 0, all = 0;
     for (size_t floor = 0; floor < floors; ++floor) {
@@ -93,7 +93,7 @@ TEST_CASE("Mueller: a tower of any size has the floors and bays that its rules g
         };
         for (int i = 0; i < count; ++i) {
           ++all;
-          const double light = kBlind + (i + 0.36) * one;  // beside the middle bar of the window frame
+          const double light = kBlind + (i + 0.36) * one;  // this place is beside the middle bar of the window frame
           open += !solid(light, -0.05);
           glazed += solid(light, -0.33);
           blind += solid(kBlind + (i + 0.95) * one, -0.05);
@@ -115,7 +115,7 @@ TEST_CASE("Mueller: one bay is changed by its path", "[table4]") {
   const WorldField world{std::move(settings), std::pmr::get_default_resource()};
   const auto balconies = usesOf(world, "Balcony");
   REQUIRE(balconies.size() == 1);
-  // The first facade is the front; bays are counted from its left.
+  // The first facade is the front; its bays are counted from the left.
   const double bay = (plan.wide - 2 * kBlind) / plan.bays(plan.wide);
   const Int3 at = balconies[0].origin;
   CHECK(metres(at.x) == Approx(-0.5 * plan.wide + kBlind + 3.5 * bay).margin(0.002));
@@ -127,7 +127,7 @@ TEST_CASE("Mueller: balconies stand where they are drawn, and only there", "[tab
   const unsigned seed = testSeed();
   CAPTURE(seed);
   Plan plan;
-  plan.floors = 15;  // so many windows that random shares stay within the bounds below (six standard deviations)
+  plan.floors = 15;  // many windows, so that shares stay within the bounds below (six standard deviations)
   plan.balconies = 0;
   CHECK(usesOf(worldOf(plan, seed), "Balcony").empty());
   plan.balconies = 1;
@@ -138,7 +138,7 @@ TEST_CASE("Mueller: balconies stand where they are drawn, and only there", "[tab
   const auto some = usesOf(world, "Balcony");
   CHECK(static_cast<double>(some.size()) > 0.15 * static_cast<double>(all));
   CHECK(static_cast<double>(some.size()) < 0.45 * static_cast<double>(all));
-  // The floors of balconies extend 1.2 m from their walls, on all four sides.
+  // The floors of balconies extend 1.2 m from the walls, on all four sides.
   std::set<int> sides;
   for (const RuleInstance& one : some) {
     const double x = metres(one.origin.x), z = metres(one.origin.z);
@@ -157,7 +157,7 @@ TEST_CASE("Mueller: windows open where no neighbour stands, and nowhere else", "
   CAPTURE(seed);
   std::mt19937 random(seed);
   size_t open = 0, walled = 0;
-  // One terrace alone may have too few open or blocked windows.
+  // Several terraces are tested, because one alone may have too few open or blocked windows.
   for (unsigned round = 0; round < std::max(rounds(4), 4u); ++round) {
     const WorldField world{settingsOf(sample("terrace.sgm"), 128, random()), std::pmr::get_default_resource()};
     for (const RuleInstance& light : usesOf(world, "Light")) {
@@ -168,7 +168,7 @@ TEST_CASE("Mueller: windows open where no neighbour stands, and nowhere else", "
       const bool opens = !solidAt(world, x - 0.1 * side, y, z);
       const bool beside = solidAt(world, x + 0.3 * side, y, z);
       CHECK(!(opens && beside));
-      // The house that blocks a window is at most 1.1 m in front of it.
+      // A house that blocks a window is at most 1.1 m in front of it.
       bool near = opens || beside;
       for (int i = 0; i < 6 * 13 * 13 && !near; ++i)
         near = solidAt(world, x + 0.2 * side * (i % 6 + 0.1), y + 0.18 * (i / 6 % 13 - 6), z + 0.18 * (i / 78 - 6));

@@ -1,4 +1,5 @@
-// Tests rooms of random floors, in the field itself: a walker of a person's size can go from outside into each of them.
+// Tests rooms of random floors in the field itself: a walker of the size of a person can go from outside into each
+// room.
 
 #include <algorithm>
 #include <random>
@@ -14,7 +15,7 @@ using namespace sgm;
 
 namespace {
 
-/// A random floor below a ceiling, so that only doors lead in.
+/// A random floor plan below a ceiling, so that only its doors lead in.
 std::string drawnFloor(std::mt19937& random, double x, double z, const std::string& doors) {
   std::uniform_real_distribution<double> unit(0, 1);
   const auto metresIn = [&](double low, double high) {
@@ -40,7 +41,7 @@ std::string drawnFloor(std::mt19937& random, double x, double z, const std::stri
 
 constexpr IntBox kHome{{-16 * 1024, -4 * 1024, -16 * 1024}, {16 * 1024, 4 * 1024, 16 * 1024}};
 
-/// Walks through the floor with 8 samples for each metre; the walker is 0.5 m wide and deep, and 1.5 m high.
+/// Walks through the floor, sampled at 8 samples per metre; the walker is 0.5 m wide and deep, and 1.5 m high.
 WalkedVoid walkedIn(const WorldField& world, double x, double z) {
   const auto samples = [](double metres) { return static_cast<int32_t>(metres * 8) + 16; };
   const Int3 size{samples(x), 30, samples(z)};
@@ -55,7 +56,7 @@ TEST_CASE("rooms: a person walks from outside into every room of a random floor,
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
   size_t walked = 0, all = 0, corridors = 0, narrow = 0, floors = 0;
-  // Not every floor has a corridor, so rounds continue until one had.
+  // Not every floor has a corridor, so rounds continue until one floor had a corridor.
   for (unsigned round = 0; round < rounds(30) || (corridors == 0 && round < 60); ++round) {
     const double x = 8 + 10 * unit(random), z = 8 + 8 * unit(random);
     const auto drawn = random();
@@ -72,7 +73,7 @@ TEST_CASE("rooms: a person walks from outside into every room of a random floor,
     REQUIRE(rooms);
     const WalkedVoid inside = walkedIn(world, x, z);
     ++floors;
-    // A plan may have a room narrower than the walker, who then cannot reach rooms behind it either.
+    // A floor may have a room narrower than the walker; then the rooms behind it cannot be reached either.
     if (!std::ranges::all_of(*rooms, [&](const Anchor& room) { return inside.fits(room.frame.origin); })) {
       ++narrow;
       continue;

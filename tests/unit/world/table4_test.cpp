@@ -25,7 +25,7 @@ std::vector<Int3> placesOf(const WorldField& world, std::string_view rule, const
   return places;
 }
 
-/// The solid of the world without the objects in it.
+/// The world's solid, without the objects in it.
 class Rock {
  public:
   Rock(const WorldField& world, uint32_t layer, const IntBox& box) : program_(*world.compileBelow(layer, box)) {}
@@ -60,8 +60,8 @@ TEST_CASE("Bouthors: blobs stand upon blobs, each level on the surface of the on
   REQUIRE(heaps);
   std::map<std::string, Int3> places;
   for (const RuleInstance& heap : *heaps) places[heap.path] = heap.origin;
-  std::map<std::string, std::vector<double>> away;  // distances from each heap to the heaps on it
-  std::vector<std::string> first;                   // the first heap of each cloud
+  std::map<std::string, std::vector<double>> away;  // by path of a heap: distances to the heaps on it
+  std::vector<std::string> first;                   // path of the first heap of each cloud
   for (const auto& [path, place] : places) {
     const std::string below = path.substr(0, path.rfind('/'));
     const auto parent = places.find(below);
@@ -83,8 +83,8 @@ TEST_CASE("Bouthors: blobs stand upon blobs, each level on the surface of the on
     CHECK(share > 0.35 - 1e-3);
     CHECK(share < 0.6 + 1e-3);
   }
-  // A tall cloud has three levels of heaps: the first heap, heaps on it, and heaps on those; the small clouds at its
-  // foot have two. Of neighbouring clouds, the box may contain only the first heap.
+  // A tall cloud has three levels of heaps, each on heaps of the level below; the small clouds at its foot have two. Of
+  // neighbouring clouds, the box may contain only the first heap.
   size_t grown = 0, tall = 0;
   for (const std::string& path : first) {
     if (away.count(path) == 0) continue;
@@ -121,7 +121,7 @@ TEST_CASE("Bouthors: more levels only add, and from afar there are fewer", "[tab
   }
   CHECK(lost == 0);
   CHECK(won > 0);
-  // A single cloud, since at coarser levels more of the neighbouring clouds would reach into the box.
+  // The world has a single cloud, because at coarser levels more of the neighbouring clouds would reach into the box.
   const WorldField one(many.settings(), *many.cell(0, {0, 0, 0}), std::pmr::get_default_resource());
   const IntBox all{{-4096 * 1024, -4096 * 1024, -4096 * 1024}, {4096 * 1024, 4096 * 1024, 4096 * 1024}};
   std::vector<size_t> sizes;
@@ -136,8 +136,8 @@ TEST_CASE("Bouthors: more levels only add, and from afar there are fewer", "[tab
 
 namespace {
 
-/// A layer of clouds, cut by lines in its middle plane: the share of the lines in clouds, and how often lines enter or
-/// leave a cloud.
+/// Statistics of a layer of clouds along lines in its middle plane: the share of the lines in clouds, and how often
+/// lines enter or leave a cloud.
 struct Cut {
   double share = 0, crossings = 0;
 };
@@ -147,7 +147,7 @@ Cut cutOf(double cover, double octaves, uint64_t seed) {
   REQUIRE(settings.parameters.set(*settings.program, "cover", cover));
   REQUIRE(settings.parameters.set(*settings.program, "octaves", octaves));
   const WorldField world(std::move(settings), std::pmr::get_default_resource());
-  // Enough patches to distinguish the cover from chance, each evaluated with its own program.
+  // There are enough patches to distinguish the cover from chance; each is evaluated with its own program.
   constexpr int32_t kPatches = 20, kEdge = 400 * 1024, kStep = 8 * 1024, kLines = 4, kAlong = kEdge / kStep;
   std::vector<int32_t> x(kAlong), y(kAlong, 900 * 1024), z(kAlong), q(kAlong);
   EvalScratch scratch;

@@ -17,7 +17,7 @@ using namespace sgm;
 
 namespace {
 
-constexpr uint32_t kMaze = 0, kNet = 1;  // numbers of layers
+constexpr uint32_t kMaze = 0, kNet = 1;  // indices of the two layers
 
 struct Setting {
   const char* name;
@@ -30,12 +30,12 @@ WorldField voxelCave(const std::string& text, uint64_t seed, std::initializer_li
   return {std::move(s), std::pmr::get_default_resource()};
 }
 
-/// For each place in a cube of `edge` places, one metre apart, x fastest: whether it is rock.
+/// Samples of a cube with `edge` places along each axis, one metre apart, x fastest: whether each place is rock.
 class Voxels {
  public:
   Voxels(const WorldField& world, uint32_t layer, Int3 low, int edge)
       : edge_(edge), rock_(static_cast<size_t>(edge * edge * edge)) {
-    // Samples in blocks, so that each block's program has only the shapes nearby.
+    // Samples are taken in blocks, so that each block's program has only the shapes nearby.
     constexpr int kBlock = 16;
     for (int z = 0; z < edge; z += kBlock)
       for (int y = 0; y < edge; y += kBlock)
@@ -50,7 +50,7 @@ class Voxels {
     return static_cast<double>(std::count(rock_.begin(), rock_.end(), 1)) / static_cast<double>(rock_.size());
   }
 
-  /// Two shares: of voxels that differ from all six neighbours, and of neighbouring pairs that differ.
+  /// Two shares: of voxels that differ from all six neighbours, and of neighbouring pairs whose voxels differ.
   std::array<double, 2> roughness() const {
     size_t alone = 0, apart = 0, all = 0;
     for (int z = 1; z + 1 < edge_; ++z)
@@ -65,7 +65,7 @@ class Voxels {
             static_cast<double>(apart) / static_cast<double>(6 * all)};
   }
 
-  /// The air that can be reached from a place, in steps from voxel to voxel.
+  /// The air that can be reached from a place by steps between neighbouring voxels.
   std::vector<uint8_t> reached(Int3 from) const {
     std::vector<uint8_t> out(rock_.size());
     std::vector<Int3> open{from};
@@ -139,7 +139,7 @@ TEST_CASE("Voxel: the same caves, to the bit, however the world is cut into cell
     const double rock = 0.44 + 0.01 * within(random, 0, 12), count = within(random, 0, 6),
                  radius = within(random, 1, 2);
     const Int3 far{within(random, -9000, 9000), within(random, -100, 100), within(random, -9000, 9000)};
-    // The mesh's cell is from half a voxel to four voxels.
+    // The mesh is made with cells of half a voxel to four voxels.
     std::vector<ChunkRequest> requests;
     for (uint8_t level = 0; level < 4; ++level)
       requests.push_back({{level, {far.x >> level, far.y >> level, far.z >> level}}});
@@ -177,7 +177,7 @@ TEST_CASE("Voxel: the automaton does what its controls say", "[table4]") {
     CHECK(share < before);
     before = share;
   }
-  // Without rounds of the automaton, voxels are random: one in 64 has only neighbours of the other kind.
+  // If the automaton runs no rounds, voxels are random: one in 64 has only neighbours of the other kind.
   const auto chance = voxels({{"rounds", 0}}).roughness();
   CHECK(std::abs(chance[0] - 1.0 / 64) < 0.004);
   CHECK(std::abs(chance[1] - 0.5) < 0.02);
@@ -193,7 +193,7 @@ TEST_CASE("Voxel: from each hall there is a way to each other", "[table4]") {
   const unsigned seed = testSeed();
   CAPTURE(seed);
   const WorldField world = voxelCave(sample("table4/voxel.sgm"), seed);
-  // Two cells of the net along each axis, which are connected by links, and a margin for their bends.
+  // The box contains two cells of the net along each axis, which links connect, and a margin for the bends of links.
   const Int3 low{-16 * 1024, -16 * 1024, -16 * 1024};
   const Voxels cave(world, kNet, low, 160);
   std::vector<Int3> halls;
@@ -228,7 +228,7 @@ TEST_CASE("Voxel: caves that are dug and filled have no holes, nor where levels 
   EditLog log({1});
   const Int3 corner{5 * edge, 5 * edge, 5 * edge};
   for (int i = 0; i < 40; ++i) REQUIRE(log.add(randomBrush(random, IntBox{corner, corner}.grown(20'000), 3000)));
-  // Edits one voxel from rock to air, and another one from air to rock.
+  // Changes one voxel from rock to air, and another voxel from air to rock.
   const Voxels voxels(world, kNet, corner, 12);
   std::array<std::optional<Int3>, 2> edited;
   for (int i = 0; i < 12 * 12 * 12; ++i) {
@@ -277,7 +277,7 @@ TEST_CASE("Voxel: in a layer without height the automaton is that of the paper, 
   size_t rock = 0;
   for (int z = 0; z < 48; ++z)
     for (int x = 0; x < 48; ++x) {
-      // The walls go from y = 0 to 3 m, and index 0 is at y = -8 m.
+      // The walls extend from y = 0 to 3 m, and index 0 is at y = -8 m.
       const bool wall = map.rock({x, 9, z});
       CHECK(wall == map.rock({x, 10, z}));
       CHECK_FALSE(map.rock({x, 7, z}));

@@ -1,5 +1,6 @@
 #pragma once
-// Files that version 0.2 has written (tests/unit/data/version_0_2), and their world. By `sgm` of 0.2.0:
+// Files that version 0.2 has written (tests/unit/data/version_0_2), and their world. These commands of `sgm` 0.2.0 made
+// them:
 //
 //   OPTIONS="hollow.sgm --seed 5 --set radius=2.75m --cell 1"
 //   sgm bake $OPTIONS --region 0,0,0:8,8,8 --levels 0..1 --out store
@@ -16,7 +17,7 @@ inline std::filesystem::path formerFile(const std::string& name) {
   return std::filesystem::path(SGM_UNIT_DATA) / "version_0_2" / name;
 }
 
-/// change: put in the place of `box(2m`.
+/// change: replaces `box(2m` in the grammar's text.
 inline WorldFieldSettings formerWorld(const std::string& change = "box(2m") {
   WorldFieldSettings settings =
       settingsOf(replaced(textOfFile(formerFile("hollow.sgm").string()), "box(2m", change), kUnitsPerMetre, 5);

@@ -1,5 +1,5 @@
 #pragma once
-// Determines where a walker can go by the field itself: floods the void with a box, sample by sample.
+// Determines where a walker can go: floods the void of a field with the walker's box, sample by sample.
 
 #include <vector>
 
@@ -8,11 +8,12 @@
 
 namespace sgm {
 
-/// Samples `step` units apart in a box. The walker is a box of samples, and fits where none of them is solid.
+/// Samples a box, with samples `step` units apart. The walker is a box of samples, and fits at a place if none of them
+/// is solid.
 class WalkedVoid {
  public:
-  /// Floods from the lowest corner, which must lie outside of the examined places. size, walker: numbers of samples on
-  /// each axis.
+  /// Floods from the box's lowest corner, which must lie outside of the examined places. size, walker: numbers of
+  /// samples along each axis.
   WalkedVoid(const WorldField& world, Int3 low, Int3 size, int32_t step, Int3 walker)
       : low_(low), size_(size), step_(step), walker_(walker) {
     closed_ = solidIn(world);
@@ -22,9 +23,9 @@ class WalkedVoid {
     flood();
   }
 
-  /// Whether a walker that comes from outside can reach a place with its middle, to half a sample.
+  /// Whether the middle of a walker that comes from outside can reach a place, to half a sample.
   bool reaches(Int3 p) const { return walked_[firstOf(p)]; }
-  /// Whether a walker fits at a place, even if it cannot get there.
+  /// Whether a walker fits at a place, even if it cannot reach the place.
   bool fits(Int3 p) const { return !closed_[firstOf(p)]; }
 
  private:
@@ -57,7 +58,7 @@ class WalkedVoid {
     return solid;
   }
 
-  /// For each sample, whether one of `wide` samples from there on is closed, or lies outside the box.
+  /// For each sample, whether it or one of the `wide` - 1 samples after it is closed or lies outside the box.
   static std::vector<bool> widened(const std::vector<bool>& closed, int32_t stride, int32_t count, int32_t wide) {
     std::vector<bool> out(closed.size());
     for (int32_t i = 0; i < static_cast<int32_t>(closed.size()); ++i) {

@@ -23,8 +23,8 @@ inline std::string textOfFile(const std::string& path) {
 
 inline std::string sample(const std::string& name) { return textOfFile(std::string(SGM_SAMPLE_GRAMMARS) + "/" + name); }
 
-/// The text of a grammar in tests/bench/grammars, a copy that does not change with the sample: for tests that depend on
-/// certain places and figures.
+/// The text of a grammar in tests/bench/grammars, which are copies that do not change with the samples: for tests that
+/// depend on certain positions and numbers.
 inline std::string yardstick(const std::string& name) {
   return textOfFile(std::string(SGM_BENCH_GRAMMARS) + "/" + name);
 }
@@ -35,7 +35,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text.replace(at, from.size(), to);
 }
 
-/// The cave without its drips: small cells in plenty would make the tests slow, and nothing else.
+/// The cave without its drips, whose many small cells would only make the tests slow.
 inline std::string caveText() {
   return replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
 }

@@ -33,7 +33,7 @@ uint64_t hashOf(const std::pmr::vector<PlacedChunk>& chunks) {
   return hashParts(parts).value();
 }
 
-// The first hall of the cave's grammar cell 0 0 0 lies somewhere around the cell's middle.
+// The first hall of the cave's grammar cell (0, 0, 0) lies somewhere around the middle of the cell.
 const IntBox kHall{{64 * 1024, 64 * 1024, 64 * 1024}, {128 * 1024, 128 * 1024, 128 * 1024}};
 
 }  // namespace
@@ -43,7 +43,7 @@ TEST_CASE("the world's hash does not depend on visiting order, threads or the ca
     const std::string text = yardstick(name);
     const bool cloud = name[1] == 'l';
     const int32_t cell = cloud ? 32 * 1024 : 1024;
-    const uint64_t seed = cloud ? 5 : 7;  // a seed with clouds near the origin
+    const uint64_t seed = cloud ? 5 : 7;  // with this seed, there are clouds near the origin
     const IntBox region =
         cloud ? IntBox{{-2000 * 1024, 800 * 1024, -2000 * 1024}, {2000 * 1024, 2000 * 1024, 2000 * 1024}} : kHall;
     const WorldField world(settingsOf(text, cell, seed), std::pmr::get_default_resource());
@@ -59,11 +59,11 @@ TEST_CASE("the world's hash does not depend on visiting order, threads or the ca
       std::mt19937 random(threads);
       std::shuffle(requests.begin(), requests.end(), random);
       WorldFieldSettings s = settingsOf(text, cell, seed);
-      s.cache_bytes = threads == 3 ? 1 : size_t{64} << 20;  // a cache that holds nothing
+      s.cache_bytes = threads == 3 ? 1 : size_t{64} << 20;  // with 3 threads, a cache that holds nothing
       const WorldField fresh(s, std::pmr::get_default_resource());
       CHECK(hashOf(meshAll(fresh, requests, threads)) == expected);
     }
-    // The same chunks, meshed again after everything derived was dropped.
+    // Meshes the same chunks again after everything derived was dropped.
     CHECK(hashOf(meshAll(world, requests, 2)) == expected);
     WorldFieldSettings other = settingsOf(text, cell, seed + 1);
     CHECK(hashOf(meshAll(WorldField(other, std::pmr::get_default_resource()), requests, 2)) != expected);
@@ -89,7 +89,7 @@ TEST_CASE("chunks that need no keys are the same but for these") {
     CHECK(a.indices == b.indices);
   }
   CHECK(vertices > 1000);
-  // Sharpening needs the vertices' keys, even if the request does not ask for them.
+  // Sharpening needs the keys of vertices, even if the request does not ask for keys.
   for (ChunkRequest& request : requests) {
     request.seams = 0;
     request.sharp = true;
@@ -227,7 +227,7 @@ TEST_CASE("chunks and regions outside of the world are refused with a reason") {
   for (const int level : {-1, kMaxLevel + 1}) CHECK(codeOf({level, {}}) == Code::invalid_argument);
   CHECK(chunksOfRegion(world, {{0, 0, 0}, {0, 1, 1}}, 0, 10).error().code == Code::invalid_argument);
   CHECK(chunksOfRegion(world, IntBox::everything(), 0, 10).error().code == Code::range);
-  // No memory can hold so many chunks, so the call fails with any limit.
+  // No memory can hold so many chunks, so the call fails whatever the limit is.
   const IntBox vast{{-(1 << 30), -(1 << 30), -(1 << 30)}, {1 << 30, 1 << 30, 1 << 30}};
   CHECK(chunksOfRegion(world, vast, 0, ~uint64_t{0}).error().code == Code::limit);
   CHECK(chunksOfRegion(world, {{0, 0, 0}, {1 << 20, 1 << 20, 1 << 20}}, 0, 10).error().code == Code::limit);
@@ -256,7 +256,7 @@ TEST_CASE("progress is told after every chunk, on any number of threads", "[thre
     uint64_t calls = 0, wrong = 0;
     const auto all = [&](uint64_t done, uint64_t total) {
       wrong += done != ++calls || total != requests.size();
-      return done < total;  // the answer to the last call is ignored
+      return done < total;  // the result of the last call is ignored
     };
     CHECK(meshChunks(world, **backend, *jobs, requests, all));
     CHECK(calls == requests.size());
