@@ -28,12 +28,13 @@ if (($# == 0)); then
   grep -q '^SGM_TOOLS:[A-Z]*=all' "$root/build/release/CMakeCache.txt" ||
     die "build/release has only the core commands: cmake --preset release && cmake --build --preset release"
   quietly "installing build/release" cmake --install "$root/build/release" --prefix "$prefix" --component library
-  # The plugin's tests bake worlds with the command.
+  # The plugin's tests bake worlds with the command `sgm`, so install it too.
   quietly "installing the command" cmake --install "$root/build/release" --prefix "$prefix" --component command
 fi
 godot=$(bash "$here/get_godot.sh")
 
-# The engine itself writes these headers; they change only with its version.
+# The engine generates the headers of its C interface. They depend only on its version, so they are kept until it
+# changes.
 api=$out/api
 version=$("$godot" --headless --version 2>/dev/null </dev/null | tail -n 1)
 if [[ $(cat "$api/version" 2>/dev/null) != "$version" ]]; then
@@ -55,6 +56,6 @@ quietly "building" cmake --build "$out/build"
   { mkdir -p "$here/demo/.godot" && echo "res://addons/sgm/sgm.gdextension" >"$here/demo/.godot/extension_list.cfg"; }
 HOME=$out/home quietly "importing the demo project" timeout 300 "$godot" --headless --path "$here/demo" --import
 ! grep -E '^(ERROR|SCRIPT ERROR)' "$out/build.log" >&2 || die "the demo project was imported with errors"
-# tests/run.sh imports the project again if one of its files is newer than this one.
+# Records the time of the import: tests/run.sh imports the project again if one of its files is newer.
 touch "$here/demo/.godot/sgm_imported"
 echo "the plugin is in editor_plugin/demo/addons/sgm, built with the headers of Godot $version"

@@ -8,7 +8,6 @@
 #
 # A file is written only if it changes, and atomically: several builds may share it, and a running engine never reads an
 # incomplete file.
-# complete.
 cmake_minimum_required(VERSION 3.25)
 set(text "")
 # fail(FILE LINE WHAT): reports a line that this script cannot translate.
@@ -82,7 +81,7 @@ function(take file)
   set(text "${text}" PARENT_SCOPE)
   set(taken "${taken}" PARENT_SCOPE)
 endfunction()
-# put(NAME WHAT): writes the collected text to a file, and starts another text.
+# put(NAME WHAT): writes the collected text to a file, and empties the text.
 function(put name what)
   string(REPLACE "@semicolon@" ";" text "${text}")
   string(REPLACE "@open@" "[" text "${text}")

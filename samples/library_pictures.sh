@@ -37,8 +37,8 @@ street.Lawn 28 34
 street.Site 28 30
 '
 
-# Scenes that replace examples which are invisible by themselves, or easier to see as a cast of their void: NAME |
-# DECLARATIONS | the body of a rule.
+# Scenes that replace examples which are invisible by themselves, or which are easier to see as a solid cast of their
+# hollow space: NAME | DECLARATIONS | the body of a rule.
 scenes='
 cave.Branchwork | | rot(z, 100deg) cave.Branchwork(10, step 5m, r 2.5m);
 karst.sole | | for i in 0..24 { at(karst.sole((0m, 0m, 0m), (70m, -4m, 20m), i/23)) sphere(2.2m); }
@@ -80,9 +80,9 @@ camera() {
     split(b, c, " ")
     pi = atan2(0, -1)
     a = azimuth*pi/180; e = elevation*pi/180; up = 0.9*sin(fov*pi/360)/cos(fov*pi/360); side = 1.5*up
-    dx = sin(a)*cos(e); dy = sin(e); dz = cos(a)*cos(e)  # unit vector from the middle to the camera
-    rx = cos(a); rz = -sin(a)  # unit vector to the right
-    ux = -sin(a)*sin(e); uy = cos(e); uz = -cos(a)*sin(e)  # unit vector upwards
+    dx = sin(a)*cos(e); dy = sin(e); dz = cos(a)*cos(e)  # unit vector from the middle of the box to the camera
+    rx = cos(a); rz = -sin(a)  # unit vector to the right of the picture
+    ux = -sin(a)*sin(e); uy = cos(e); uz = -cos(a)*sin(e)  # unit vector upwards in the picture
     for (i = 1; i <= 3; ++i) m[i] = (c[i] + c[i + 3])/2
     for (k = 0; k < 8; ++k) {
       x = c[1 + 3*(k%2)] - m[1]; y = c[2 + 3*(int(k/2)%2)] - m[2]; z = c[3 + 3*int(k/4)] - m[3]
@@ -141,7 +141,7 @@ opened() {
 # line_of TABLE NAME: prints the line of NAME without the name.
 line_of() { awk -v n="$2" '$1 == n { sub(/^[^ ]+ */, ""); print }' <<<"$1"; }
 
-draw_one() {  # draw_one SGM FOLDER PART NAME EXAMPLE
+draw_one() {  # draw_one SGM FOLDER PART NAME EXAMPLE: draws the picture of one example
   local sgm=$1 folder=$2 part=$3 name=$3.$4 body=$5 box view scene axis whole=1 options=() fov=24 material
   local azimuth=28 elevation=14 more='' camera pixel cell region file=$2/$3.$4.sgm
   material=$(material_of "$part")
@@ -177,7 +177,7 @@ draw_one() {  # draw_one SGM FOLDER PART NAME EXAMPLE
   convert "$folder/$name.png" -quality 85 -sampling-factor 4:2:0 -strip "$images/$name.jpg"
 }
 
-draw_pictures() {  # draw_pictures SGM [NAME]...
+draw_pictures() {  # draw_pictures SGM [NAME]...: draws the pictures of these examples, or of all
   local sgm=$1 folder part name example failed=0
   shift
   source "$root/samples/setup_debian.sh"

@@ -42,6 +42,6 @@ for name in "$@"; do
 done
 while read -r name grammar options; do
   [[ -n $name && (-z ${1-} || " $* " == *" $name "*) ]] || continue
-  # $options is not quoted, since it contains several options
+  # $options is unquoted on purpose, since it contains several options
   "$sgm" render "samples/grammars/$grammar" $options --max-chunks 200000 --out "samples/images/$name.png"
 done <<<"$views"

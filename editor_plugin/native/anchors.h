@@ -14,12 +14,12 @@ class Anchors {
  public:
   struct News {
     std::vector<sgm_anchor> come;
-    std::vector<uint64_t> gone;  // keys of the anchors that are no longer drawn
+    std::vector<uint64_t> gone;  // keys of the anchors that are no longer in drawn chunks
   };
   /// The anchors that appear and disappear with a frame's changes. If a chunk is replaced by finer or coarser chunks,
   /// its anchors pass to them and neither appear nor disappear.
   News follow(const std::vector<Picture::Change>& changes);
-  std::vector<uint64_t> clear();  // forgets all anchors; returns their keys
+  std::vector<uint64_t> clear();  // forgets all anchors, and returns their keys
 
  private:
   std::map<sgm_chunk_key, std::vector<uint64_t>, KeyLess> by_chunk_;

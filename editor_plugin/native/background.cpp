@@ -11,7 +11,7 @@ namespace sgm_godot {
 void yieldToEngine() {
 #if defined(__linux__)
   constexpr int kNiceness = 5;
-  static_cast<void>(setpriority(PRIO_PROCESS, 0, kNiceness));  // on Linux, 0 stands for the calling thread
+  static_cast<void>(setpriority(PRIO_PROCESS, 0, kNiceness));  // on Linux, the id 0 stands for the calling thread
 #endif
 }
 

@@ -25,7 +25,7 @@ class Colliders {
   void take(const std::vector<sgm_world_event>& events);
 
   /// Makes collision shapes for `seconds`, but at least one if any is pending. Chunks near one of `viewers` (scene
-  /// coordinates) come first. The previous body of a chunk stays until all shapes of the new one exist.
+  /// coordinates) come first. A chunk keeps its previous body until all shapes of the new body exist.
   void advance(double seconds, const std::vector<Vector3>& viewers);
 
   void setPlacement(const Placement& placement);

@@ -13,7 +13,7 @@
 namespace sgm_godot {
 namespace {
 
-/// Data that live from the call of the entry point until the last initialization level ends.
+/// Data of the library, which live from the call of the entry point until the last initialization level ends.
 struct Loaded {
   Plugin plugin;
   std::deque<ClassRecord> classes;
@@ -32,7 +32,7 @@ constexpr sgm_profiler kThreads{[](void*, const char*) -> uint64_t { return 0; }
 
 Variant singleton(const char* name) { return Variant(engine().global_get_singleton(Name(name).get())); }
 
-/// The reason why this library cannot be used in this engine; empty if it can.
+/// Returns the reason why this library cannot be used in this engine; an empty text if it can.
 std::string reasonAgainst() {
   GDExtensionGodotVersion version{};
   engine().get_godot_version(&version);
@@ -97,7 +97,7 @@ void stop(Loaded& loaded) {
   for (auto record = loaded.classes.rbegin(); record != loaded.classes.rend(); ++record) removeClass(*record);
   loaded.classes.clear();
   Plugin& plugin = loaded.plugin;
-  plugin.background.reset();  // waits until all worlds have ended
+  plugin.background.reset();  // the destructor waits until all worlds have been destroyed
   plugin.rendering.reset();
   plugin.physics.reset();
   if (plugin.runtime != nullptr && sgm_runtime_destroy(plugin.runtime) != SGM_OK) {

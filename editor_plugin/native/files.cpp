@@ -8,8 +8,8 @@
 namespace sgm_godot {
 namespace {
 
-// The engine does not find static methods by their names alone; these numbers are hashes of their signatures, which
-// have not changed since Godot 4.0 (extension_api.json).
+// The engine needs the hash of a static method's signature in addition to its name. These hashes (extension_api.json)
+// have not changed since Godot 4.0.
 struct StaticMethod {
   const char* name;
   int64_t signature;

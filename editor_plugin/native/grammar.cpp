@@ -134,8 +134,9 @@ int64_t Grammar::reload() {
     return kErrorFileCannotOpen;
   }
   file_time_ = time;
-  const Variant kept(self());  // a listener of the signal may release the last reference to this object
-  adopt(*text);                // even if the text is unchanged, because its imports may have changed
+  // keeps this object alive: a listener of the signal may release the last other reference to it
+  const Variant kept(self());
+  adopt(*text);  // also if the text is unchanged, because the imported files may have changed
   return valid_ ? kOk : kErrorParse;
 }
 

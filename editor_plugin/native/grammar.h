@@ -13,7 +13,7 @@ class Grammar : public Instance {
   using Instance::Instance;
   static void registerClass(ClassRecord& record);
 
-  /// The result of compiling the last valid text; null before there is one. Worlds share its ownership.
+  /// The compiled form of the last valid text; null before there is one. Worlds share its ownership.
   const GrammarOwner& compiled() const { return compiled_; }
 
   /// Reads a file and compiles it under its name. Returns false if the file cannot be read; errors in the text are not

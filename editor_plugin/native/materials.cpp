@@ -93,7 +93,7 @@ void Materials::send(const char* parameter, const Variant& value) const {
 void Materials::update(const std::vector<Vector3>& viewers, const MorphRanges& ranges, double cell_size,
                        const Placement& placement) {
   if (!sent_) {
-    // Arrays have the full length: the engine pads shorter ones, but with warnings in some versions.
+    // The arrays always have their full length: the engine pads shorter ones, but with warnings in some versions.
     Packed<Color> colors(kMaxColors);
     Packed<int32_t> patterns(kMaxColors);
     Packed<float> reliefs(kMaxColors);

@@ -14,8 +14,9 @@ class Materials {
   /// Loads the plugin's own shader. If its file is missing, uses a plain material and logs an error.
   void rebuild(Plugin& plugin, const std::vector<std::string>& names, const Settings& settings);
 
-  const std::vector<uint16_t>& slots() const { return slots_; }  // indexed by material of the grammar
-  std::vector<Rid> rids() const;                                 // indexed by slot
+  // slot of each material, indexed by material of the grammar
+  const std::vector<uint16_t>& slots() const { return slots_; }
+  std::vector<Rid> rids() const;  // the engine's id of each material, indexed by slot
   const std::vector<Color>& palette() const { return palette_; }
   /// The material that a game has set for a slot; nil for slot 0, the blended material.
   const Variant& material(uint16_t slot) const { return materials_[slot].own; }
@@ -30,7 +31,7 @@ class Materials {
  private:
   struct Slot {
     std::string name;
-    Variant own;  // nil: the plugin's material is used
+    Variant own;  // the material that the game has set; nil: the plugin's material is used
     Variant used;
   };
   void send(const char* parameter, const Variant& value) const;

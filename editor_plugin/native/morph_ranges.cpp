@@ -45,7 +45,8 @@ MorphRanges morphRanges(const std::vector<Picture::Shown>& shown, const std::vec
       ranges.begin[level] = ranges.end[level] = kNever;
       continue;
     }
-    // Vertices stay in place for at least half of the distance, so that near surfaces do not visibly move.
+    // Vertices nearer to the viewer than half of the end distance do not move, so that no movement is visible on near
+    // surfaces.
     ranges.begin[level] = std::max(finer_ends[level], ranges.end[level] / 2);
   }
   return ranges;

@@ -30,8 +30,8 @@ constexpr uint32_t kMorphZero = 2048;
 /// The triangles of one slot, as indices of corners. A corner is a wedge of the mesh, or a vertex if the mesh has no
 /// wedges.
 struct Corners {
-  std::vector<uint32_t> indices;  // indices into `used`
-  std::vector<uint32_t> used;     // indices of the mesh's corners
+  std::vector<uint32_t> indices;  // indices of the triangles' corners in `used`
+  std::vector<uint32_t> used;     // the used corners, as indices of the mesh's corners
 };
 
 struct Reader {
@@ -73,7 +73,7 @@ std::vector<Corners> collect(const Reader& reader, Part part, const std::vector<
       const size_t slot = material < slots.size() ? slots[material] : 0;
       std::vector<uint32_t>& place = places[slot];
       if (place.empty()) place.assign(reader.count(), kNone);
-      // The engine's front faces are clockwise.
+      // The engine's front faces are clockwise, the mesh's are not: the second and third corner are swapped.
       for (const int order : {0, 2, 1}) {
         uint32_t& at = place[corners[order]];
         if (at == kNone) {

@@ -17,7 +17,7 @@ struct PackedSurface {
 /// Selects the parts of a mesh to pack.
 struct Part {
   bool body = true;
-  uint32_t seams = 0;  // mask of seams: bits (1 << sgm_face)
+  uint32_t seams = 0;  // mask of the seams: the bit of a face's seam is 1 << sgm_face
 };
 
 /// Packs the triangles, one surface for each slot. `slots`: the slot of each material of the grammar; 0 is the blended

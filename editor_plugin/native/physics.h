@@ -1,7 +1,7 @@
 #pragma once
 // The functions of the engine's PhysicsServer3D that collision needs. With the project setting
-// physics/3d/run_on_separate_thread the engine executes them in its own thread; otherwise the calling thread bears
-// their cost.
+// physics/3d/run_on_separate_thread the engine executes them in its own thread; otherwise they run on the calling
+// thread.
 
 #include "godot/variant.h"
 
@@ -15,7 +15,7 @@ class Physics {
   Rid createBody(const Transform& place, Object owner, int64_t layer, int64_t mask) const;
   Rid createShape(const Variant& faces) const;  // faces: a PackedVector3Array with three corners for each triangle
   void addShape(Rid body, Rid shape) const;
-  void setSpace(Rid body, Rid space) const;  // an empty `space` removes the body from its space
+  void setSpace(Rid body, Rid space) const;  // an empty `space` takes the body out of its current space
   void setPlace(Rid body, const Transform& place) const;
   void setLayers(Rid body, int64_t layer, int64_t mask) const;
   void free(Rid rid) const;

@@ -118,7 +118,7 @@ void Picture::takeDrawn(const std::vector<sgm_drawn_chunk>& chunks, const Pictur
   Frame frame;
   for (const sgm_drawn_chunk& chunk : chunks) {
     std::shared_ptr<sgm_mesh> mesh = owned(chunk.mesh);
-    known_.emplace(chunk.key, mesh);  // if a mesh is known for this key, it stays the one that was last READY
+    known_.emplace(chunk.key, mesh);  // keeps a mesh that a READY event has already set for this key
     frame.push_back(
         {SGM_EVENT_SHOWN, chunk.key, mesh, submit(mesh, {true, 0}), submit(mesh, {false, chunk.seams}), chunk.seams});
   }
@@ -150,7 +150,8 @@ void Picture::upload(Upload& upload) {
   rendering.setShadow(upload.instance, look_.shadow);
   rendering.setLayers(upload.instance, look_.layers);
   if (look_.owner != nullptr) rendering.attach(upload.instance, look_.owner);
-  for (PackedSurface& packed : upload.surfaces) packed.surface = Variant();  // the engine has copied the arrays
+  // the engine has copied the arrays, so they are freed
+  for (PackedSurface& packed : upload.surfaces) packed.surface = Variant();
 }
 
 void Picture::show(const UploadOwner& upload, bool visible) {
@@ -166,7 +167,7 @@ void Picture::drop(UploadOwner& upload) {
   plugin_.rendering->free(upload->instance);
   plugin_.rendering->free(upload->rid);
   upload->instance = upload->rid = Rid();
-  // A part that has not been uploaded yet counts as done, so that it is skipped.
+  // If the part is still in the queue of uploads, it counts as uploaded, so that the queue skips it.
   upload->uploaded = true;
   upload.reset();
 }
@@ -175,7 +176,7 @@ void Picture::apply(Frame& frame, std::vector<Change>& changes) {
   for (Step& step : frame) {
     if (step.kind == SGM_EVENT_REMOVED) {
       const auto found = chunks_.find(step.key);
-      if (found == chunks_.end()) continue;  // the chunk was READY but never shown
+      if (found == chunks_.end()) continue;  // a removed chunk may have been READY without ever being shown
       drop(found->second.body);
       drop(found->second.seams);
       chunks_.erase(found);

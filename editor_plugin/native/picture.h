@@ -23,8 +23,8 @@ struct KeyLess {
 struct Look {
   Rid scenario;
   Placement placement;
-  std::vector<uint16_t> slots;  // indexed by material of the grammar
-  std::vector<Rid> materials;   // indexed by slot
+  std::vector<uint16_t> slots;  // slot of each material, indexed by material of the grammar
+  std::vector<Rid> materials;   // the engine's id of each material, indexed by slot
   bool shadow = true, visible = true;
   int64_t layers = 1;
   Object owner = nullptr;
@@ -40,15 +40,15 @@ class Picture {
   /// Receives all events of one update, in their order, and becomes the owner of their meshes.
   void take(const std::vector<sgm_world_event>& events);
   /// Receives everything that a world draws, for a picture that starts after the world's first events; becomes the
-  /// owner of the meshes. `before`: the picture that has received all events so far. Meshes that it holds but does not
-  /// draw yet are taken from it.
+  /// owner of the meshes. `before`: the picture that has received all events so far. Its meshes that are not drawn yet
+  /// are taken over.
   void takeDrawn(const std::vector<sgm_drawn_chunk>& chunks, const Picture& before);
 
   /// A chunk that appeared, disappeared, or got another mesh.
   struct Change {
     enum Kind { kShown, kReplaced, kRemoved } kind;
     sgm_chunk_key key;
-    MeshOwner mesh;  // set for kShown and kReplaced
+    MeshOwner mesh;  // the mesh of a chunk that is shown or replaced; null if the chunk is removed
   };
   /// Uploads meshes for `seconds`, but at least one, and then shows all frames that are complete. Each frame is shown
   /// as a whole, so that no partial change is visible.
@@ -103,12 +103,14 @@ class Picture {
   Plugin& plugin_;
   Look look_;
   std::map<sgm_chunk_key, Chunk, KeyLess> chunks_;  // drawn chunks
-  // For each key, the mesh that was READY last according to the events.
+  // For each chunk key, the mesh of the last READY event.
   std::map<sgm_chunk_key, std::shared_ptr<sgm_mesh>, KeyLess> known_;
-  std::map<sgm_chunk_key, UploadOwner, KeyLess> ready_;  // bodies of the meshes in known_ that are not drawn yet
+  // uploads of the bodies of meshes in known_ that are not drawn yet
+  std::map<sgm_chunk_key, UploadOwner, KeyLess> ready_;
   std::deque<UploadOwner> uploads_;
   std::deque<Frame> frames_;
-  std::vector<sgm_chunk_key> gone_;  // keys of chunks that the previous picture has shown and this one will not show
+  // keys of chunks that the previous picture has shown, and that this picture will not show
+  std::vector<sgm_chunk_key> gone_;
   size_t triangles_ = 0;
 };
 

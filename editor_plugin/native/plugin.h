@@ -16,7 +16,7 @@ namespace sgm_godot {
 
 struct Plugin {
   sgm_runtime* runtime = nullptr;
-  /// Packs meshes and destroys worlds.
+  /// The thread that packs meshes and destroys worlds.
   std::unique_ptr<Background> background;
   /// Wrappers of the engine's servers. The servers exist when the first world enters a scene, which then sets these
   /// members.

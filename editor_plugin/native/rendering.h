@@ -9,7 +9,7 @@ class Rendering {
  public:
   Rendering();
 
-  Rid createMesh(const std::vector<Variant>& surfaces) const;  // surfaces: dictionaries, as packSurfaces() makes them
+  Rid createMesh(const std::vector<Variant>& surfaces) const;  // surfaces: dictionaries, as packSurfaces() returns them
   Rid createInstance(Rid mesh, Rid scenario, const Transform& place) const;
   void setVisible(Rid instance, bool visible) const;
   void setPlace(Rid instance, const Transform& place) const;

@@ -153,7 +153,7 @@ Failure Session::makeWorld(const Settings& settings) {
   if (!journal.empty()) desc.journal = journal.c_str();
   if (!cache.empty()) desc.cache_folder = cache.c_str();
   std::vector<std::string> places;
-  // An element that the user has just added in the inspector is empty.
+  // The inspector adds a new element as an empty text, which is skipped.
   for (const std::string& store : settings.stores) {
     if (!store.empty()) places.push_back(systemPath(store));
   }
@@ -200,7 +200,7 @@ std::vector<sgm_drawn_chunk> Session::drawn() const {
   std::vector<sgm_drawn_chunk> chunks;
   size_t count = 0;
   sgm_world_get_drawn(world_.get(), nullptr, 0, &count, nullptr);
-  // The number of chunks may grow between the two calls, so ask for some more.
+  // The number of chunks may grow between the two calls, so the buffer gets room for some more.
   do {
     chunks.resize(count + 16);
     count = chunks.size();

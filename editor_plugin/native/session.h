@@ -57,7 +57,8 @@ class Session {
   int32_t cell_units_ = 0, top_level_ = 0;
   sgm_backend backend_ = SGM_BACKEND_CPU;
   std::string backend_name_, device_;
-  std::set<std::string> told_;  // warnings about parameters that were logged, so that each is logged once
+  // the warnings about parameters that were already logged, so that each is logged only once
+  std::set<std::string> told_;
 };
 
 }  // namespace sgm_godot

@@ -10,15 +10,15 @@
 namespace sgm_godot {
 
 struct Settings {
-  /// The work that follows a change: kLook and kPlacement at once, the others in the next frame. No effect includes the
-  /// work of another.
+  /// The work that follows a change of a setting. kLook and kPlacement are done at once, the others in the next frame.
+  /// No effect includes the work of another.
   enum Effect : unsigned {
     kNothing = 0,
-    kField = 1,    // another field for the same world
+    kField = 1,    // the world gets another field
     kRestart = 2,  // another world
     kPaint = 4,    // other materials
     kRepack = 8,   // other slots
-    kLook = 16,    // visibility, shadows, layers
+    kLook = 16,    // visibility, shadows or render layers change
     kPlacement = 32,
     kBodies = 64,  // collision layers
   };
@@ -29,18 +29,20 @@ struct Settings {
 #undef SGM_SETTING_GROUP
 #undef SGM_SETTING
 
-  // By names of the grammar, which the inspector lists as parameters/NAME, materials/NAME and colors/NAME.
+  // Values by the names that the grammar gives them. The inspector lists them as parameters/NAME, materials/NAME and
+  // colors/NAME.
   std::map<std::string, double> parameters;
   std::map<std::string, Variant> materials;
   std::map<std::string, Color> colors;
 };
 
-/// Whether a setting has the value already.
+/// Whether the new value of a setting equals the old one.
 template <class T>
 bool isSameSetting(const T& a, const T& b) {
   return a == b;
 }
-/// Never for dictionaries: a script may have changed the elements of the one that it sets again.
+/// Dictionaries never count as equal: a script may change the elements of a dictionary and set the same dictionary
+/// again.
 inline bool isSameSetting(const Dictionary&, const Dictionary&) { return false; }
 
 }  // namespace sgm_godot

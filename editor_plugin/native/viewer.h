@@ -17,7 +17,7 @@ class Viewer : public Instance {
   void notify(int32_t what) override;
   bool enabled() const { return enabled_; }
   double weight() const { return weight_; }
-  double fov() const { return fov_; }  // vertical, degrees; 0: 70 degrees
+  double fov() const { return fov_; }  // vertical field of view in degrees; 0 stands for 70 degrees
   bool directional() const { return directional_; }
 
  private:

@@ -10,14 +10,14 @@ cp -a "$tests/lib" "$out/editor_plugin/tests/"
 godot=$(bash "$tests/../get_godot.sh" 2>/dev/null)
 printf '#!/bin/sh\necho "%s"\n' "$godot" >"$out/editor_plugin/get_godot.sh"
 printf 'config_version=5\n[application]\nconfig/name="harness"\n' >"$out/demo/project.godot"
-rm -f "$out"/editor_plugin/tests/lib/cave.gd  # this file needs the plugin's classes
+rm -f "$out"/editor_plugin/tests/lib/cave.gd  # cave.gd needs the plugin's classes, which this project lacks
 
 # script NAME BODY: makes a test with BODY as its function _initialize.
 script() {
   printf 'extends SceneTree\nconst Checks := preload("res://tests/lib/checks.gd")\nvar _checks := Checks.new()\n\nfunc _initialize() -> void:\n%s\n' \
     "$2" >"$out/editor_plugin/tests/headless/$1.gd"
 }
-# The project has nothing to import.
+# The file .godot/sgm_imported marks the project, which has nothing to import, as imported.
 mkdir "$out/demo/.godot"
 touch "$out/demo/.godot/sgm_imported"
 failed=0

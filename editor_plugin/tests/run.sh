@@ -79,7 +79,8 @@ run_one() {
   case $kind in
     headless) command=("$godot" --headless --path "$project" --script "tests/$name.gd") ;;
     rendered)
-      # Only the search for holes needs many pixels, and a software device needs long for each pixel.
+      # Only the test `closed`, which searches for holes, needs many pixels. Other tests draw fewer, because a software
+      # device needs long for each pixel.
       resolution=640x360
       [[ $name != */closed ]] || resolution=1280x720
       command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution $resolution

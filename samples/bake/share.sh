@@ -20,14 +20,14 @@ fail() { echo "share.sh: error: $1 ('head -n 20 $0' shows its use)" >&2 && exit 
 shares=$1
 shift
 [[ $shares == end || $shares =~ ^[1-9][0-9]*$ ]] || fail "'$shares' is neither a number of shares nor 'end'"
-[[ ${PBS_ENVIRONMENT:-} != PBS_BATCH ]] || cd "$PBS_O_WORKDIR"  # PBS starts jobs in the home folder
+[[ ${PBS_ENVIRONMENT:-} != PBS_BATCH ]] || cd "$PBS_O_WORKDIR"  # PBS starts jobs in the user's home folder
 
 if [[ $shares == end ]]; then
   "$@" --merge
   words=("$@") program=() store=
   for ((i = 0; i < $#; ++i)); do
     case ${words[i]} in
-      bake) program=("${words[@]:0:i}") ;;  # the last word "bake" before the options
+      bake) program=("${words[@]:0:i}") ;;  # the words before the last "bake" are the program
       --out) store=${words[i + 1]:-} && break ;;
       --out=*) store=${words[i]#--out=} && break ;;
     esac
@@ -35,9 +35,9 @@ if [[ $shares == end ]]; then
   ((${#program[@]} > 0)) && [[ -n $store ]] || fail "to verify it takes 'sgm bake' and --out in the command"
   exec "${program[@]}" store verify "$store"
 fi
-if [[ -n ${JOB_COMPLETION_INDEX:-} ]]; then share=$JOB_COMPLETION_INDEX  # Kubernetes, counts from 0
+if [[ -n ${JOB_COMPLETION_INDEX:-} ]]; then share=$JOB_COMPLETION_INDEX  # set by Kubernetes; counts from 0
 elif [[ -n ${PBS_ARRAY_INDEX:-} ]]; then share=$PBS_ARRAY_INDEX  # counts from 0
-elif [[ -n ${PBS_ARRAYID:-} ]]; then share=$PBS_ARRAYID  # Torque, counts from 0
+elif [[ -n ${PBS_ARRAYID:-} ]]; then share=$PBS_ARRAYID  # set by Torque; counts from 0
 elif [[ ${SGE_TASK_ID:-undefined} != undefined ]]; then share=$((SGE_TASK_ID - 1))  # counts from 1
 elif [[ ${LSB_JOBINDEX:-0} != 0 ]]; then share=$((LSB_JOBINDEX - 1))  # counts from 1
 elif [[ -n ${SHARE:-} ]]; then share=$SHARE

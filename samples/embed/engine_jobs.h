@@ -29,7 +29,7 @@ class EngineJobs {
   }
 
   sgm_job_system table() {
-    // Add one, because the thread that calls the library works too.
+    // The result is the number of worker threads plus one, because the thread that calls the library works too.
     return {[](void* user) { return static_cast<uint32_t>(static_cast<EngineJobs*>(user)->threads_.size() + 1); },
             [](void* user, void (*function)(void*), void* argument, int32_t priority) -> int32_t {
               return static_cast<EngineJobs*>(user)->submit({function, argument, priority, 0}) ? 1 : 0;

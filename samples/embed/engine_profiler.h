@@ -16,8 +16,8 @@ class EngineProfiler {
   using Clock = std::chrono::steady_clock;
   struct Zone {
     uint64_t count = 0;
-    Clock::duration alone{};    ///< total time without nested zones
-    Clock::duration longest{};  ///< longest single time, including nested zones
+    Clock::duration alone{};    ///< total time in the zone, without the zones nested in it
+    Clock::duration longest{};  ///< longest single stay in the zone, including nested zones
   };
 
   sgm_profiler table() {
@@ -33,10 +33,12 @@ class EngineProfiler {
     return profiler;
   }
 
-  // These functions may be called only when no thread works any more.
+  // The following functions may be called only when no other thread uses the profiler any more.
   const std::map<std::string_view, Zone>& zones() const { return zones_; }
-  const std::map<std::string_view, double>& highest() const { return highest_; }  ///< the highest value of each plot
-  bool nested() const { return nested_; }  ///< whether each end has closed the innermost zone of its thread
+  /// the highest value that each plot has received
+  const std::map<std::string_view, double>& highest() const { return highest_; }
+  /// whether every end of a zone has closed the innermost open zone of its thread
+  bool nested() const { return nested_; }
 
  private:
   struct Open {

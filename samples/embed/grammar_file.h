@@ -11,7 +11,7 @@
 
 #include "handles.h"
 
-/// Imports are read from the folder of the file.
+/// Compiles the grammar in a file. Its imports are read from the folder of the file.
 inline GrammarOwner compileFile(sgm_runtime* runtime, const char* path) {
   std::ifstream file(path, std::ios::binary);
   if (!file || !std::filesystem::is_regular_file(path)) throw std::runtime_error(std::string("cannot read ") + path);

@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kFrameTime = std::chrono::milliseconds(4);
 constexpr auto kLongestLoad = std::chrono::minutes(1);
-constexpr double kSpeed = 100;  // metres per second
+constexpr double kSpeed = 100;  // speed of the viewer, metres per second
 
 /// The engine's log: counts warnings, and prints them.
 struct Log {
@@ -65,8 +65,8 @@ WorldOwner makeWorld(sgm_field* field) {
   return WorldOwner(world);
 }
 
-/// Two places near anchors of the grammar, about a thousand kilometres from the origin: the beginning and the direction
-/// of the flight.
+/// Finds two places near anchors of the grammar, about a thousand kilometres from the origin: the start of the flight,
+/// and a place that gives its direction.
 std::pair<Place, Place> findPath(sgm_field* field) {
   constexpr int32_t kFar = 1'000'000 * SGM_UNITS_PER_METRE, kAround = 384 * SGM_UNITS_PER_METRE;
   const int32_t low[3] = {kFar - kAround, -kAround, kFar - kAround};
@@ -96,7 +96,7 @@ void fly(Streaming& streaming, const std::pair<Place, Place>& path, int frames) 
     streaming.frame(at, velocity);
     std::this_thread::sleep_until(next);
   }
-  // Then the viewer stands still until all chunks are drawn.
+  // After the flight, the viewer stands still until all chunks are drawn.
   for (const Clock::time_point limit = Clock::now() + kLongestLoad; !streaming.idle();) {
     if (Clock::now() > limit) throw std::runtime_error("the world does not come to rest");
     streaming.frame(at, {});

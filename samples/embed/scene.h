@@ -17,11 +17,11 @@
 
 #include "handles.h"
 
-/// A mesh as a device would store it.
+/// A mesh in the form in which a graphics device would store it.
 struct DeviceMesh {
   std::vector<sgm_vertex> vertices;
   std::vector<uint32_t> indices;
-  std::array<int32_t, 3> origin{};  ///< position of the chunk's corner, units
+  std::array<int32_t, 3> origin{};  ///< position of the chunk's corner in the world, in units
   float vertex_step = 0;            ///< metres for each step of a vertex coordinate
   sgm_mesh_range body{}, seams[SGM_FACE_COUNT]{};
   uint64_t hash = 0;
@@ -54,7 +54,7 @@ class Scene {
   using Key = std::array<int32_t, 4>;
   static Key keyOf(const sgm_chunk_key& key) { return {key.level, key.x, key.y, key.z}; }
 
-  /// Processes an event, and becomes the owner of its mesh.
+  /// Processes an event of the world, and becomes the owner of its mesh.
   void take(const sgm_world_event& event) {
     const Key key = keyOf(event.key);
     switch (event.kind) {

@@ -15,10 +15,10 @@
 
 using Place = std::array<double, 3>;  ///< a position in metres
 
-/// The results of a flight.
+/// The results of a flight through the world.
 struct Flight {
   int frames = 0;
-  DrawCounts drawn;  ///< counts of the last frame
+  DrawCounts drawn;  ///< counts of the last drawn frame
   size_t uploaded = 0;
   std::chrono::steady_clock::duration longest_update{};
 };
@@ -49,7 +49,7 @@ class Streaming {
       must(sgm_world_poll(world_, events, 0, &count, &error), error);
       for (size_t i = 0; i < count; ++i) scene_.take(events[i]);
     }
-    // All changes of a frame have been processed, so the drawn surface is closed.
+    // All changes of the frame have been processed, so the drawn surface has no gaps.
     flight_.drawn = scene_.draw(camera);
     flight_.uploaded = scene_.uploadedBytes();
     ++flight_.frames;

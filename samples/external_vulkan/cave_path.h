@@ -99,7 +99,8 @@ class CavePath {
     Place direction{};
     double free = 0;
   };
-  /// The direction with the most free space, among those that do not turn back and along which the camera fits.
+  /// Returns the direction with the most free space, among those directions that do not turn back and along which the
+  /// camera fits.
   Way longestWay(const Place& from, const Place& heading) const {
     std::vector<Way> ways;
     for (const double slope : {-0.4, 0.0, 0.4}) {

@@ -12,7 +12,7 @@
 
 /// Data of a chunk for the vertex shader.
 struct ChunkRecord {
-  std::array<int32_t, 3> offset{};  ///< from the camera to the chunk's origin, units
+  std::array<int32_t, 3> offset{};  ///< vector from the camera to the chunk's origin, in units
   int32_t cell_units = 0;
 };
 
@@ -30,7 +30,7 @@ struct Draw {
 struct DrawList {
   std::vector<Draw> draws;
   std::vector<ChunkRecord> records;
-  // The semaphore must have this value on the device before the list is drawn; null: no wait is needed.
+  // The device must wait until the semaphore has this value before it draws the list. Null: no wait is needed.
   VkSemaphore semaphore = VK_NULL_HANDLE;
   uint64_t value = 0;
 

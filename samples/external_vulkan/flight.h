@@ -28,7 +28,7 @@ class Flight {
         frames_(device, pipeline, kInFlight),
         uploaded_(device, pipeline) {}
 
-  /// As a loading screen does: returns when everything visible from the view is drawn.
+  /// Streams the world without drawing, as a loading screen does, until everything visible from the view is ready.
   void load(const ViewPoint& view) {
     look(view);
     sgm_error error = SGM_ERROR_INIT;
@@ -50,8 +50,8 @@ class Flight {
     frames_.draw(drawn_, view.matrix(aspect_));
   }
 
-  /// Draws the last frame again from uploaded buffers, which must give the same bytes. loaded: the world is in the
-  /// state that load() has left, in which the camera cannot be at a place with coarse chunks only.
+  /// Draws the last frame again from uploaded buffers, and requires the same picture, byte for byte. loaded: the world
+  /// is in the state that load() has left, in which the camera cannot be at a place with coarse chunks only.
   Picture check(const ViewPoint& view, bool loaded) {
     const Picture picture = frames_.picture();
     const Picture other = uploaded_.draw(world_, drawn_, view.units(), view.matrix(aspect_));
@@ -88,7 +88,7 @@ class Flight {
     must(sgm_world_set_viewers(world_, &viewer, 0, 1, &error), error);
   }
 
-  /// Processes events until there are none; then the drawn surface is closed.
+  /// Processes all pending events; then the drawn surface has no gaps.
   void poll() {
     sgm_error error = SGM_ERROR_INIT;
     sgm_world_event events[64];

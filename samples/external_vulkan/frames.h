@@ -54,7 +54,7 @@ class Frames {
     submit(slot, list);
   }
 
-  /// The picture of the last frame.
+  /// Waits for the last frame, and returns its picture.
   Picture picture() {
     await(submitted_);
     return slotOf(submitted_).target.picture();
@@ -120,7 +120,7 @@ class Frames {
     must(vkBeginCommandBuffer(slot.commands, &begin), "vkBeginCommandBuffer");
     slot.target.begin(slot.commands, pipeline_);
     vkCmdPushConstants(slot.commands, pipeline_.layout(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof matrix, matrix.data());
-    // One call draws all parts that lie in the same buffer.
+    // A single call draws all parts that lie in the same buffer.
     for (size_t first = 0, next = 0; first < list.draws.size(); first = next) {
       const VkBuffer buffer = list.draws[first].buffer;
       while (next < list.draws.size() && list.draws[next].buffer == buffer) ++next;
@@ -136,8 +136,8 @@ class Frames {
     must(vkEndCommandBuffer(slot.commands), "vkEndCommandBuffer");
   }
 
-  /// Submits the frame. The device, not the host, waits for the meshes: the work that signals the semaphore's value is
-  /// already in the queue.
+  /// Submits the frame. The device, not the host, waits until the meshes are complete: the work that signals the
+  /// semaphore's value is already in the queue.
   void submit(const Slot& slot, const DrawList& list) {
     const uint64_t frame = submitted_ + 1;
     const VkSemaphore ended = ended_.get();
@@ -165,7 +165,7 @@ class Frames {
 
   VulkanDevice& device_;
   const ChunkPipeline& pipeline_;
-  // Its value is the number of the last frame that the device has completed.
+  // a timeline semaphore; its value is the number of the last frame that the device has completed
   Owned<VkSemaphore, vkDestroySemaphore> ended_;
   std::vector<Slot> slots_;
   uint64_t submitted_ = 0;

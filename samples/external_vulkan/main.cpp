@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kSkipped = 77;  // exit status if there is no suitable device: nothing was tested
 constexpr double kMetresPerFrame = 0.25;
-// Leaves the device time for meshing, as a display's refresh rate does.
+// Minimum time of a frame, as on a 60 Hz display, so that the device also has time for meshing.
 constexpr auto kFrameTime = std::chrono::milliseconds(16);
 constexpr const char* kUsage =
     "usage: external_vulkan FILE.sgm [--frames N] [--compare K] [--size WxH] [--png FILE] [--cuda] [--validate]\n";
@@ -94,7 +94,7 @@ FieldOwner makeField(sgm_runtime* runtime, const sgm_grammar* grammar, bool cuda
   desc.grammar = grammar;
   desc.seed = 7;
   desc.cell_units = SGM_UNITS_PER_METRE / 4;
-  desc.backend = cuda ? SGM_BACKEND_CUDA : SGM_BACKEND_VULKAN;  // including software devices
+  desc.backend = cuda ? SGM_BACKEND_CUDA : SGM_BACKEND_VULKAN;  // SGM_BACKEND_VULKAN also accepts software devices
   sgm_field* field = nullptr;
   sgm_error error = SGM_ERROR_INIT;
   must(sgm_field_create(runtime, &desc, &field, &error), error);
@@ -113,7 +113,7 @@ WorldOwner makeWorld(sgm_field* field) {
   return WorldOwner(world);
 }
 
-/// Whether everything outside the grammar's shapes is rock, without end.
+/// Whether everything outside the grammar's shapes is solid rock without end.
 bool isClosed(const sgm_grammar* grammar) {
   sgm_domain_info domain = SGM_DOMAIN_INFO_INIT;
   if (sgm_grammar_domain(grammar, &domain) != SGM_OK) throw std::runtime_error("the grammar's domain is not known");
@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    Validation validation;  // outlives the device, to receive the layer's messages about its destruction
+    Validation validation;  // outlives the device, since the layer also reports faults in the device's destruction
     run(*options, options->validate ? &validation : nullptr);
     if (validation.messages > 0) throw std::runtime_error("the validation layer has found faults");
   } catch (const NoDevice& e) {

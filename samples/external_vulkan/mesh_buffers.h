@@ -104,7 +104,7 @@ class StreamedMesh {
   }
 
   explicit operator bool() const { return mesh_ != nullptr; }
-  /// Whether the mesh lies in the library's buffers. False if it has no triangles.
+  /// Whether the library has put the mesh into buffers on the device. False if the mesh has no triangles.
   bool resident() const { return semaphore_ != VK_NULL_HANDLE; }
   size_t bytes() const { return view_.vertex_count * sizeof(sgm_vertex) + view_.index_count * sizeof(uint32_t); }
   const MeshParts& parts() const { return parts_; }

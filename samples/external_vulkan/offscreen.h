@@ -64,7 +64,7 @@ class ChunkPipeline {
     subpass.colorAttachmentCount = 1;
     subpass.pColorAttachments = &to_colour;
     subpass.pDepthStencilAttachment = &to_depth;
-    // The picture is copied to the host after it is drawn.
+    // This dependency lets the copy to the host start only after the picture is drawn.
     VkSubpassDependency copied{};
     copied.srcSubpass = 0;
     copied.dstSubpass = VK_SUBPASS_EXTERNAL;
@@ -102,7 +102,7 @@ class ChunkPipeline {
     stages[0].module = vertex.get();
     stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
     stages[1].module = fragment.get();
-    // Binding 0: vertices in the library's format; binding 1: a ChunkRecord of ours for each chunk.
+    // Binding 0: vertices in the library's format. Binding 1: one ChunkRecord for each chunk.
     const VkVertexInputBindingDescription bindings[] = {{0, sizeof(sgm_vertex), VK_VERTEX_INPUT_RATE_VERTEX},
                                                         {1, sizeof(ChunkRecord), VK_VERTEX_INPUT_RATE_INSTANCE}};
     const VkVertexInputAttributeDescription attributes[] = {
@@ -191,7 +191,7 @@ class Offscreen {
   }
 
   void begin(VkCommandBuffer commands, const ChunkPipeline& pipeline) const {
-    const VkClearValue clear[2]{};  // black with alpha 0 (Picture::uncovered), and depth at infinity
+    const VkClearValue clear[2]{};  // colour: black with alpha 0, which Picture::uncovered() counts; depth: infinity
     VkRenderPassBeginInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     info.renderPass = pipeline.pass();
@@ -217,7 +217,7 @@ class Offscreen {
                          0, nullptr);
   }
 
-  /// The picture; valid once the device has completed the frame.
+  /// Returns the picture; valid once the device has completed the frame.
   Picture picture() const {
     Picture picture{size_.width, size_.height, std::vector<uint8_t>(back_.size())};
     std::memcpy(picture.rgba.data(), back_.data(), back_.size());

@@ -9,7 +9,7 @@
 
 struct Picture {
   uint32_t width = 0, height = 0;
-  std::vector<uint8_t> rgba;  ///< rows from the top
+  std::vector<uint8_t> rgba;  ///< four bytes for each pixel, rows from the top
 
   size_t pixels() const { return rgba.size() / 4; }
   /// Number of pixels without a surface: their alpha is 0.

@@ -94,7 +94,7 @@ class Scene {
         list.draws.push_back({buffer, command, name, part});
         list.draws.back().command.firstInstance = record;
       }
-      // All meshes have the same semaphore, so the largest of their values suffices.
+      // All meshes have the same semaphore, so waiting for the largest of their values suffices.
       if (!mesh.resident()) continue;
       list.semaphore = mesh.semaphore();
       list.value = std::max(list.value, mesh.value());
@@ -104,7 +104,7 @@ class Scene {
   }
 
   size_t residentChunks() const { return resident_; }
-  size_t residentBytes() const { return resident_bytes_; }  ///< of all chunks that arrived in device memory
+  size_t residentBytes() const { return resident_bytes_; }  ///< total of all meshes that arrived in device memory
 
  private:
   struct Chunk {

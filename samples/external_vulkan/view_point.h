@@ -9,7 +9,7 @@
 #include <cstdint>
 
 using Place = std::array<double, 3>;       ///< a position in metres, or a direction
-using Matrix = std::array<float, 16>;      ///< column-major, as in shaders
+using Matrix = std::array<float, 16>;      ///< a 4x4 matrix, column-major, as in shaders
 using UnitPlace = std::array<int32_t, 3>;  ///< a position in the library's units
 
 struct ViewPoint {
@@ -17,7 +17,7 @@ struct ViewPoint {
   static constexpr float kNear = 0.05f;  ///< distance of the near plane in metres
 
   Place at{};
-  Place forward{};  ///< unit length, not vertical
+  Place forward{};  ///< the viewing direction: a unit vector, not vertical
 
   UnitPlace units() const {
     UnitPlace units{};

@@ -17,7 +17,8 @@
 
 class VulkanDevice {
  public:
-  /// validation: as for VulkanInstance. share_memory: CUDA meshes into memory shared with this device. Throws NoDevice.
+  /// validation: see VulkanInstance. share_memory: whether CUDA shall write meshes into memory that this device shares.
+  /// Throws NoDevice.
   VulkanDevice(Validation* validation, bool share_memory) : instance_(validation), share_memory_(share_memory) {
     openBest();
   }
@@ -34,7 +35,7 @@ class VulkanDevice {
     must(vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE), "vkQueueSubmit");
   }
 
-  /// The description of the device for the library. The device must outlive the runtime.
+  /// Describes the device to the library. The device must outlive the runtime.
   sgm_vulkan_device_desc lend() {
     sgm_vulkan_device_desc desc = SGM_VULKAN_DEVICE_DESC_INIT;
     desc.api_version = VulkanInstance::kApiVersion;
@@ -87,7 +88,7 @@ class VulkanDevice {
     return {};
   }
 
-  /// The first required feature that a device lacks; empty if it has all.
+  /// Returns the first required feature that a device lacks; an empty text if the device has all of them.
   std::string unsupportedReason(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) const {
     if (properties.apiVersion < VulkanInstance::kApiVersion) return "Vulkan 1.2";
     VkPhysicalDeviceVulkan12Features features12{};

@@ -47,7 +47,7 @@ class HostBuffer {
   std::byte* data() const { return data_; }
 
  private:
-  MemoryOwner memory_;  // must outlive the buffer in it
+  MemoryOwner memory_;  // must outlive the buffer that is bound to it
   Owned<VkBuffer, vkDestroyBuffer> buffer_;
   VkDeviceSize bytes_ = 0;
   std::byte* data_ = nullptr;

@@ -8,7 +8,7 @@ const MIDDLE := Vector3(30.0, 0.0, 30.0)
 ## Path of the journal with the digs in a seed's cave. Another grammar, cell size (here in mm) or other parameters make
 ## another cave, so they are part of the name.
 const JOURNAL := "user://cave_%d_%dmm_%08x.journal"
-## Metres from the eyes within which the player can dig and build.
+## Maximum distance in metres from the eyes at which the player can dig and build.
 const REACH := 14.0
 const DIG_RADIUS := 1.4
 const BUILD_RADIUS := 1.1
@@ -16,10 +16,10 @@ const SMOOTH := 0.35
 const BUILD_MATERIAL := "calcite"
 ## Seconds between two digs while the button is held.
 const PACE := 0.16
-## Maximum seconds until the curtain opens, even if no ground has been drawn.
+## Maximum seconds until the picture is shown, even if no ground has been drawn yet.
 const LONGEST_WAIT := 20.0
 
-## Whether the air scatters the lamp's light. Initially only on machines with a dedicated graphics card.
+## Whether air scatters the lamp's light; initially true only on machines with a dedicated graphics card.
 var fog := false:
 	set(value):
 		fog = value
@@ -28,7 +28,7 @@ var fog := false:
 var _edits: Array[PackedInt64Array] = []
 var _rest := 0.0
 var _growing := false
-## False until the click that captures the mouse is released, so that this click does not dig.
+## False until the mouse button whose click has captured the mouse is released, so that this click does not dig.
 var _armed := false
 
 
@@ -88,13 +88,13 @@ func welcome() -> String:
 	return "What you dug here is back. " + WELCOME if world.get_edit_count() > 0 else WELCOME
 
 
-## Digs where the player looks. Returns whether there is rock within reach.
+## Digs where the player looks. Returns false if there is no rock within reach.
 func dig() -> bool:
 	var hit := world.ray_cast(player.eye(), player.gaze(), REACH)
 	return not hit.is_empty() and _keep(world.dig(hit.position, DIG_RADIUS, SMOOTH))
 
 
-## Builds where the player looks, but never around the player. Returns whether something was built.
+## Builds rock where the player looks, but never around the player. Returns whether rock was built.
 func build() -> bool:
 	var hit := world.ray_cast(player.eye(), player.gaze(), REACH)
 	if hit.is_empty():
@@ -106,7 +106,7 @@ func build() -> bool:
 	return _keep(world.build(hit.position, BUILD_RADIUS, BUILD_MATERIAL, SMOOTH))
 
 
-## Undoes the last dig or building. Returns whether there was one.
+## Undoes the last dig or building. Returns false if there was none.
 func undo() -> bool:
 	if _edits.is_empty():
 		overlay.say("Nothing to undo")
@@ -122,7 +122,7 @@ func save() -> void:
 		overlay.say("The digs cannot be saved: see whether the disk has room", 6.0)
 
 
-## Grows the cave of another seed behind a curtain. A coroutine.
+## Replaces the cave by that of another seed, while a curtain hides the picture. A coroutine.
 func grow(new_seed: int) -> void:
 	if _growing:
 		return
@@ -132,7 +132,7 @@ func grow(new_seed: int) -> void:
 	_edits.clear()
 	world.seed = new_seed
 	world.journal = _journal()
-	# The new cave exists from the next frame on; only then are its anchors known.
+	# The new cave exists from the next frame on; its anchors are not known before.
 	await world.restarted
 	go_to_start()
 	var limit := Time.get_ticks_msec() + roundi(LONGEST_WAIT * 1000.0)

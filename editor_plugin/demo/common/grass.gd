@@ -1,12 +1,12 @@
 class_name DemoGrass
 extends MultiMeshInstance3D
-## Tufts of grass around the camera where the world's ground consists of grass. The world's field is queried for it, so
-## the ground need not be drawn yet, and ground that was dug away has no grass when the player returns.
+## Draws tufts of grass around the camera where the ground's material is grass. The ground is found by queries of the
+## world's field, so it need not be drawn yet, and ground that was dug away has no grass when the player returns.
 
 const BLADES := 14
 ## Width of a tuft, metres.
 const WIDTH := 0.4
-## Microseconds of each frame that are spent on the search for ground.
+## Microseconds of each frame that the search for ground may take.
 const BUDGET := 1200
 ## Metres above and below the camera within which ground is searched.
 const ABOVE := 14.0
@@ -14,14 +14,14 @@ const DEPTH := 40.0
 const STEEPEST := 0.72
 ## Metres that the camera moves before tufts are added and removed.
 const STEP := 2.0
-## Larger values for machines with a graphics card.
+## Radius of the planted area and tufts in a cell, for machines with a graphics card.
 const FINE_RADIUS := 30.0
 const FINE_TUFTS := 13
 
 @export var world: SgmWorld3D
 @export var materials: Array[String] = ["grass"]
 @export var radius := 20.0
-## Metres between two places at which ground is searched; between them it is interpolated by its slope.
+## Metres between two points at which the ground is searched; between them, its height is interpolated by the slope.
 @export var spacing := 0.9
 @export var tufts_in_cell := 7
 
@@ -93,7 +93,7 @@ func _choose(eye: Vector3) -> void:
 	_changed = true
 
 
-# The tufts of a cell; empty if no grass grows there.
+# Returns the tufts of a cell; empty if no grass grows there.
 func _at(cell: Vector2i, eye: Vector3) -> Array[Transform3D]:
 	var tufts: Array[Transform3D] = []
 	var middle := (Vector2(cell) + Vector2(0.5, 0.5)) * spacing
@@ -127,8 +127,8 @@ func _show() -> void:
 	custom_aabb = AABB(_middle - Vector3.ONE * (radius + DEPTH), Vector3.ONE * 2.0 * (radius + DEPTH))
 
 
-# The mesh of a tuft: blades that lean away from its middle. UV.y is the height along a blade, UV.x a random number of
-# the blade.
+# Makes the mesh of a tuft: blades that lean away from its middle. UV.y is the height along a blade, UV.x a random
+# number for each blade.
 func _tuft() -> ArrayMesh:
 	var random := RandomNumberGenerator.new()
 	random.seed = 5

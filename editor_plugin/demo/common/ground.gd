@@ -9,7 +9,7 @@ const LAST_REACH := 3200.0
 const HEADROOM := 2.2
 ## Number of directions that are tried to find the widest view.
 const DIRECTIONS := 24
-## If the ground is farther below, in metres, the place is in a hall and not in a passage.
+## Maximum depth in metres of the ground below the anchor in a passage; deeper ground belongs to the hall.
 const PASSAGE_HEIGHT := 5.5
 ## Distance in metres from the beginning of a passage to the starting place.
 const MOUTH := 4.0
@@ -18,21 +18,21 @@ const STEP := 0.5
 const BESIDE := 6.0
 
 
-## Whether a place lies inside the solid. Exact within [param depth] metres of the surface.
+## Whether a place lies inside the solid. The result is exact within [param depth] metres of the surface.
 static func is_inside(world: SgmWorld3D, place: Vector3, depth := 64.0) -> bool:
 	var point := world.closest_point(place, depth)
 	return not point.is_empty() and point.inside
 
 
-## The ground below a place, or the place itself if there is no ground within [param length] metres.
+## Returns the ground below a place, or the place itself if there is no ground within [param length] metres.
 static func below(world: SgmWorld3D, place: Vector3, length := 64.0) -> Vector3:
 	var hit := world.ray_cast(place, Vector3.DOWN, length)
 	return place if hit.is_empty() or hit.inside else hit.position
 
 
-## The transform of the player's starting place, for any seed and parameters. It is near the anchor of [param kind] that
-## is nearest to [param around]: in the beginning of the longest passage that leads away from it, otherwise on the
-## ground below it. Without such an anchor, it is the ground below [param around].
+## Returns the transform of the player's starting place, for any seed and parameters. Near the anchor of [param kind]
+## that is nearest to [param around], it is in the beginning of the longest passage that leads away from the anchor;
+## without a passage, on the ground below the anchor. Without such an anchor, it is the ground below [param around].
 static func start(world: SgmWorld3D, kind: String, around: Vector3) -> Transform3D:
 	var reach := FIRST_REACH
 	while reach <= LAST_REACH:
@@ -50,12 +50,12 @@ static func start(world: SgmWorld3D, kind: String, around: Vector3) -> Transform
 	return looking(below(world, around), 0.0)
 
 
-## The transform of a person who stands at a place and looks in the direction of an angle.
+## Returns the transform of a person who stands at a place and looks in the direction of an angle.
 static func looking(feet: Vector3, yaw: float) -> Transform3D:
 	return Transform3D(Basis(Vector3.UP, yaw), feet)
 
 
-## The yaw in radians of the longest horizontal view from a place.
+## Returns the yaw in radians of the longest horizontal view from a place.
 static func widest_view(world: SgmWorld3D, eye: Vector3, length := 80.0) -> float:
 	var best := 0.0
 	var farthest := -1.0
@@ -69,8 +69,8 @@ static func widest_view(world: SgmWorld3D, eye: Vector3, length := 80.0) -> floa
 	return best
 
 
-## The lowest free place at or above [param feet], for a player who was buried when the world changed; [param otherwise]
-## if there is none within [param height] metres.
+## Returns the lowest free place at or above [param feet], for a player who was buried when the world changed; returns
+## [param otherwise] if there is no such place within [param height] metres.
 static func dug_out(world: SgmWorld3D, feet: Vector3, otherwise: Vector3, height := 12.0) -> Vector3:
 	var lift := 0.0
 	while lift <= height:
@@ -96,7 +96,8 @@ static func _mouth(world: SgmWorld3D, middle: Vector3) -> Transform3D:
 	return looking(_ground_around(world, middle), yaw)
 
 
-## The highest ground near the middle of a hall. The middle itself does not suffice, because a shaft may open below it.
+## Returns the highest ground near the middle of a hall. The ground below the middle itself does not suffice, because a
+## shaft may open there.
 static func _ground_around(world: SgmWorld3D, middle: Vector3) -> Vector3:
 	var best := below(world, middle)
 	for step in 8:

@@ -8,24 +8,25 @@ extends MultiMeshInstance3D
 const LENGTH := 0.085
 const WIDTH := 0.66
 const NEEDLES_WIDTH := 0.3
-## Increase of a leaf's length for each metre of distance from the camera; distant leaves are also fewer.
+## Metres by which a leaf's length grows for each metre of distance from the camera; distant leaves are also fewer.
 const GROWTH := 0.006
-## Leaf area for each area of surface, in squares of a leaf's length.
+## Leaf area for each unit of surface area; the area of a leaf counts as the square of its length.
 const COVER := 2.2
-## Metres by which leaves stand out from a crown's surface, and by which they lie within it.
+## Metres by which leaves stand out from a crown's surface, and metres below the surface at which others lie.
 const REACH := 0.15
 const DEPTH := 0.08
 const MOST := 450_000
-## Metres that the camera moves before leaves are placed again, and microseconds of each frame spent on it.
+## Metres that the camera moves before leaves are placed again, and microseconds of each frame that placing them may
+## take.
 const STEP := 15.0
 const BUDGET := 2000
-## Floats for each instance: its transform, the direction out of the crown, and the brightness, which is below 0 for
-## needles.
+## Number of floats for each instance: its transform, the direction out of the crown, and the brightness, which is below
+## 0 for needles.
 const FLOATS := 16
 
 @export var world: SgmWorld3D
 @export var materials: Array[String] = ["leaf", "leaf_dark"]
-## Maximum distance from the camera, metres.
+## Maximum distance in metres from the camera to a leaf.
 @export var radius := 110.0
 
 var _middle := Vector3.INF
@@ -49,7 +50,7 @@ func fill() -> void:
 	_grow(1 << 40)
 
 
-## Places the leaves over several frames.
+## Places all visible leaves, over several frames. A coroutine.
 func grow() -> void:
 	await _grow(BUDGET)
 
@@ -67,7 +68,7 @@ func _grow(microseconds: int) -> void:
 	_middle = eye
 	var buffer := PackedFloat32Array()
 	var chunks := world.bake_chunks()
-	# Near chunks come first, because the number of leaves is limited.
+	# Chunks near the camera get leaves first, because the number of leaves is limited.
 	chunks.sort_custom(func(a: Dictionary, b: Dictionary) -> bool:
 		return eye.distance_squared_to(a.transform.origin) < eye.distance_squared_to(b.transform.origin))
 	var limit := Time.get_ticks_usec() + microseconds
@@ -85,7 +86,8 @@ func _grow(microseconds: int) -> void:
 	custom_aabb = AABB(eye - Vector3.ONE * radius, Vector3.ONE * 2.0 * radius)
 
 
-# The leaves of a chunk's crowns. Their number depends on the area of the triangles, not on the number of triangles.
+# Returns the leaves of a chunk's crowns. Their number depends on the area of the triangles, not on the number of
+# triangles.
 func _grown(arrays: Array, place: Transform3D, eye: Vector3, needles: bool) -> PackedFloat32Array:
 	var grown := PackedFloat32Array()
 	var points: PackedVector3Array = arrays[Mesh.ARRAY_VERTEX]
@@ -127,7 +129,7 @@ func _grown(arrays: Array, place: Transform3D, eye: Vector3, needles: bool) -> P
 	return grown
 
 
-# The mesh of a leaf: a blade along x, folded along its middle, that hangs down a little.
+# Makes the mesh of a leaf: a blade along x, folded along its middle, that hangs down a little.
 func _leaf() -> ArrayMesh:
 	var tool := SurfaceTool.new()
 	tool.begin(Mesh.PRIMITIVE_TRIANGLES)

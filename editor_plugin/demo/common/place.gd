@@ -7,7 +7,7 @@ const GROWING := "The world grows …"
 const WELCOME := "Click to look around, F1 for help"
 ## Maximum seconds for which the message "The world grows" is shown.
 const LONGEST_GROWTH := 120.0
-## Seconds between two checks whether the player is buried.
+## Seconds between two checks whether the player is buried in rock.
 const WATCH_SECONDS := 0.5
 ## If the player falls this many metres below the last ground, the player is moved back.
 const DEEPEST_FALL := 60.0
@@ -17,13 +17,13 @@ const DEEPEST_FALL := 60.0
 @export var overlay: DemoOverlay
 @export var environment: WorldEnvironment
 @export_group("With a graphics card")
-## Settings of the world on machines with a graphics card; the scene's own settings are for machines without one.
+## Settings of the world that replace the scene's own ones on machines with a graphics card.
 @export var fine: Dictionary = {}
 @export_group("")
 ## The text that F1 shows.
 @export_multiline var help := ""
 
-## Place where the player begins, and to which the player returns after a fall.
+## The place where the player begins, and to which the player returns after a fall.
 var start_place := Vector3.ZERO
 
 var _safe_place := Vector3.ZERO
@@ -90,7 +90,8 @@ func go_to_start() -> void:
 	player.look(start.basis.get_euler().y, 0.0)
 
 
-## The transform of the player at the start, for the world's seed and parameters. Each place overrides this.
+## Returns the transform of the player at the start, for the world's seed and parameters. Subclasses override this
+## method.
 func find_start() -> Transform3D:
 	var feet := DemoGround.below(world, Vector3(0.0, 40.0, 0.0))
 	return DemoGround.looking(feet, DemoGround.widest_view(world, feet + Vector3.UP))
@@ -112,7 +113,7 @@ func leave() -> void:
 	get_tree().change_scene_to_file(MENU)
 
 
-## The message that is shown when the world is first visible.
+## Returns the message that is shown when the world is first visible.
 func welcome() -> String:
 	return WELCOME
 

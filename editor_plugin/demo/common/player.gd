@@ -1,9 +1,7 @@
 class_name DemoPlayer
 extends CharacterBody3D
-## The player, who walks where the world has reported that the ground has colliders, and flies anywhere.
-##
-## The mouse turns the head while it is captured; nothing else here needs a mouse. Scripts move the player with [method
-## teleport], [method look] and [method fly_to].
+## The player, who walks where the world has reported that the ground has colliders, and flies anywhere. While the mouse
+## is captured, it turns the head. Scripts move the player with [method teleport], [method look] and [method fly_to].
 
 ## Emitted when the player has passed all points given to [method fly_to].
 signal arrived
@@ -129,12 +127,12 @@ func look_at_place(place: Vector3) -> void:
 	look(turn.y, turn.x)
 
 
-## Position of the eyes.
+## Returns the position of the eyes.
 func eye() -> Vector3:
 	return global_position + Vector3.UP * EYE_HEIGHT
 
 
-## Viewing direction; a unit vector.
+## Returns the viewing direction, a unit vector.
 func gaze() -> Vector3:
 	return -_head.global_basis.z
 

@@ -4,7 +4,7 @@ extends DemoPlace
 
 const HEIGHT := 1230.0
 const DRIFT_SPEED := 14.0
-## Length in metres of the drift that is planned at a time.
+## Length in metres of the part of the flight that is planned at a time.
 const LEG := 2000.0
 
 

@@ -7,9 +7,9 @@ extends MeshInstance3D
 ## Emitted when all volumes have been filled once.
 signal filled
 
-## Metres of full density after which 1/e of the sunlight is left, for the second channel of the volumes.
+## Metres of full density that reduce sunlight to 1/e. Used for the second channel of the volumes.
 const FADE := 250.0
-## Metres below a cloud's surface at which it reaches its full density; the shader's noise erodes this edge.
+## Metres from a cloud's surface inwards to its full density; the shader's noise erodes this edge.
 const EDGE := 110.0
 const BASE := 960.0
 const NAMES: Array[String] = ["near", "far"]
@@ -20,7 +20,7 @@ const SLACK := 0.15
 
 @export var world: SgmWorld3D
 @export var sun: DirectionalLight3D
-## Materials on which clouds cast shadows: they also receive the volumes as parameters.
+## Materials on which clouds cast shadows: their shaders also receive the volumes as parameters.
 @export var shaded: Array[ShaderMaterial] = []
 
 var _middles: Array[Vector3] = [Vector3.INF, Vector3.INF]
@@ -58,7 +58,7 @@ func is_filled() -> bool:
 	return not _filled.has(false)
 
 
-# Runs on a worker thread.
+# Samples a volume of density. Runs on a worker thread.
 func _sample(i: int, middle: Vector3, to_sun: Vector3) -> void:
 	var size := SIZES[i]
 	var corner := middle - SPACINGS[i] * 0.5 * Vector3(size.x, 0.0, size.z) + Vector3(0.0, BASE, 0.0)

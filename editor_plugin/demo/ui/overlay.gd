@@ -43,7 +43,7 @@ func say(sentence: String, seconds := 2.5) -> void:
 	_message_tween.tween_property(_message, ^"modulate:a", 0.0, 0.5)
 
 
-## Closes or opens the curtain. A coroutine.
+## Hides the picture behind the curtain, or shows it again. A coroutine.
 func fade(closed: bool) -> void:
 	if _fade_tween != null:
 		_fade_tween.kill()

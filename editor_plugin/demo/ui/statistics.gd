@@ -22,7 +22,7 @@ func _process(delta: float) -> void:
 	_text.text = describe(_world)
 
 
-## The figures as lines of text.
+## Returns the figures of a world as lines of text.
 static func describe(world: SgmWorld3D) -> String:
 	var lines := PackedStringArray()
 	lines.append("%d frames/s" % roundi(Engine.get_frames_per_second()))
@@ -45,7 +45,7 @@ static func describe(world: SgmWorld3D) -> String:
 	return "\n".join(lines)
 
 
-## A whole number with separated groups of three digits.
+## Formats a whole number with separated groups of three digits.
 static func grouped(number: int) -> String:
 	var digits := str(absi(number))
 	var text := ""

@@ -15,7 +15,7 @@ struct ClassRecord {
   std::string name, parent;
   Instance* (*create)(Plugin&, Object);
   std::vector<std::pair<std::string, GDExtensionClassCallVirtual>> overrides;
-  std::deque<std::vector<Variant>> defaults;  // default values of the last arguments of each method
+  std::deque<std::vector<Variant>> defaults;  // for each method, the default values of its last arguments
 };
 
 struct Argument {

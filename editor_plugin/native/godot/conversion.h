@@ -5,8 +5,8 @@
 
 namespace sgm_godot {
 
-/// A dictionary, an array, or a packed array of numbers or strings, whose engine type is not evident from the C++ type
-/// Variant.
+/// A dictionary, an array, or a packed array of numbers or strings. `type`: its engine type, which the C++ type Variant
+/// does not tell.
 template <GDExtensionVariantType type>
 struct Typed {
   Variant value = Variant::ofType(type);
@@ -61,7 +61,7 @@ struct Conversion<NameText> {
 };
 template <>
 struct Conversion<Variant> {
-  static constexpr int type = GDEXTENSION_VARIANT_TYPE_NIL;  // a Variant of any type
+  static constexpr int type = GDEXTENSION_VARIANT_TYPE_NIL;  // the engine's type number for a Variant of any type
   static Variant from(const Variant& value) { return value; }
   static Variant into(const Variant& value) { return value; }
 };

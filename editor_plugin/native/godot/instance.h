@@ -24,7 +24,7 @@ class Instance {
   virtual bool set(const std::string& /*name*/, const Variant& /*value*/) { return false; }
   virtual bool get(const std::string& /*name*/, Variant& /*value*/) const { return false; }
 
-  /// Describes such a property to the inspector.
+  /// Describes a property that was not registered with the class to the inspector.
   struct Property {
     std::string name;
     GDExtensionVariantType type = GDEXTENSION_VARIANT_TYPE_NIL;

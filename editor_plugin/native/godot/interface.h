@@ -6,7 +6,8 @@
 
 namespace sgm_godot {
 
-// X(type, name): a function with the type GDExtensionInterface<type> and the name "name". All exist since Godot 4.3.
+// The list of the engine's functions. X(type, name): a function with the type GDExtensionInterface<type> and the name
+// "name". All exist since Godot 4.3.
 #define SGM_GODOT_FUNCTIONS(X)                                                                   \
   X(ArrayOperatorIndex, array_operator_index)                                                    \
   X(ClassdbConstructObject, classdb_construct_object)                                            \

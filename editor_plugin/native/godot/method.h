@@ -11,11 +11,11 @@
 namespace sgm_godot {
 
 struct MethodShape {
-  std::vector<int> arguments;  // Variant types of the arguments
+  std::vector<int> arguments;  // Variant types of the method's arguments
   int result = -1;             // Variant type of the result; -1: none
 };
 
-/// C: the class, const if the function takes a const object.
+/// Properties and calls of a method A... -> R of a class. C: the class, const if the method is const.
 template <class C, class R, class... A>
 struct MethodParts {
   static constexpr bool returns = !std::is_void_v<R>;
@@ -41,7 +41,7 @@ struct MethodParts {
     return {};
   }
 
-  /// `userdata`: a vector of Variants with the default values of the last arguments.
+  /// Calls the method for a script. `userdata`: a vector of Variants with the default values of the last arguments.
   template <auto method>
   static void call(void* userdata, void* instance, const void* const* given, int64_t count, void* result,
                    GDExtensionCallError* error) {

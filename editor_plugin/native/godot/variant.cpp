@@ -154,7 +154,7 @@ Packed<T>::Packed(size_t size) : size_(size) {
     if (array.size() != static_cast<int64_t>(size)) throw std::bad_alloc();
     engine().to_type[PackedType<T>::type](bytes_, const_cast<void*>(array.raw()));
   }
-  // Only now is the array referenced once, so that obtaining a pointer for writing does not copy it.
+  // At this point the array has a single reference, so that obtaining a pointer for writing does not copy it.
   if (size != 0) data_ = PackedType<T>::first(bytes_);
 }
 template <class T>

@@ -86,7 +86,7 @@ class Variant {
     writeText(text);
   }
   Variant(const Name& name);
-  Variant(Object object);  // nil if it is null
+  Variant(Object object);  // the object as a value; nil if it is null
   /// An empty value of a type: a dictionary, an array, a packed array.
   static Variant ofType(GDExtensionVariantType type);
   static Variant dictionary() { return ofType(GDEXTENSION_VARIANT_TYPE_DICTIONARY); }
@@ -100,7 +100,8 @@ class Variant {
   bool isNil() const { return type() == GDEXTENSION_VARIANT_TYPE_NIL; }
   bool truth() const { return engine().variant_booleanize(bytes_) != 0; }
 
-  /// The value as another type, converted as the engine does. If no conversion exists, the empty value of that type.
+  /// Returns the value converted to another type, as the engine converts it; the empty value of that type if no
+  /// conversion exists.
   template <class T>
   T to() const;
   Object object() const;  // null if the value is not an object
@@ -122,7 +123,7 @@ class Variant {
   Variant get(const Variant& key) const;  // the element of a dictionary or an array; nil if there is none
   bool has(const Variant& key) const;
   void set(const Variant& key, const Variant& value);
-  void append(const Variant& value) const;  // appends to an array
+  void append(const Variant& value) const;  // appends an element to an array
   int64_t size() const;
 
   const void* raw() const { return bytes_; }
@@ -135,7 +136,7 @@ class Variant {
 };
 
 template <>
-bool Variant::to<bool>() const;  // any type: whether the value counts as true
+bool Variant::to<bool>() const;  // Returns whether the value counts as true; accepts any type.
 template <>
 std::string Variant::to<std::string>() const;
 template <class T>
@@ -147,7 +148,7 @@ T Variant::to() const {
   return value;
 }
 
-/// The method of an object as a value that can be connected to a signal.
+/// Returns a method of an object as a value that can be connected to a signal.
 Variant callable(Object object, const Name& method);
 /// A copy of the value at `value`, which is of the engine's type `type`; NIL: a Variant.
 Variant fromTyped(GDExtensionVariantType type, const void* value);
@@ -163,7 +164,7 @@ class Packed {
   ~Packed();
   Packed(const Packed&) = delete;
   Packed& operator=(const Packed&) = delete;
-  T* data() { return data_; }  // null if size is 0
+  T* data() { return data_; }  // the elements, to be written; null if size is 0
   size_t size() const { return size_; }
   Variant take() const;  // the finished array; it must not be written to afterwards
 

@@ -7,24 +7,24 @@
 
 namespace sgm_godot {
 
-/// The session that runs, and the place of its world that lies at the node's origin (metres), as every thread may read
-/// them. The main thread alone changes them.
+/// The running session, and the position in its world (metres) that lies at the node's origin. Any thread may read
+/// them; only the main thread changes them.
 class ActiveSession {
  public:
   struct Placed {
-    std::shared_ptr<Session> session;  // null if none runs
+    std::shared_ptr<Session> session;  // null if no session runs
     Vector3i origin;
   };
 
   void set(std::shared_ptr<Session> session);
   void setOrigin(Vector3i origin);
-  /// Main thread: no lock is needed to read.
+  /// For the main thread only, which needs no lock to read.
   const std::shared_ptr<Session>& current() const { return placed_.session; }
-  /// Any thread. Both are of the same moment.
+  /// Returns a consistent copy of session and origin. Thread-safe.
   Placed placed() const;
 
  private:
-  mutable std::mutex mutex_;  // held to change placed_, and to read it on other threads
+  mutable std::mutex mutex_;  // locked to write placed_, and to read it on threads other than the main thread
   Placed placed_;
 };
 

@@ -9,19 +9,21 @@
 
 namespace sgm_godot {
 
-/// The anchors in what a world draws, and the scenes that the setting anchor_scenes puts there. Main thread.
+/// Tracks the anchors in the drawn chunks of a world, and the scenes that the setting anchor_scenes instantiates at
+/// them. Main thread only.
 class AnchorScenes {
  public:
   explicit AnchorScenes(WorldNode& node) : node_(node) {}
 
-  /// Takes the changes of a frame: announces anchors that come and go, and removes the scenes of the latter.
+  /// Processes the changes of a frame: announces anchors that appear and disappear, and removes the scenes of anchors
+  /// that disappear.
   void follow(const std::vector<Picture::Change>& changes, const sgm_grammar* grammar);
-  /// Makes the missing scenes until `seconds` are over, at least one. A scene may do anything as it enters the tree,
-  /// such as end the session.
+  /// Instantiates pending scenes for `seconds`, but at least one. A scene's scripts may do anything when it enters the
+  /// tree, such as end the session.
   void place(const ActiveSession& active, double seconds);
-  /// Moves the scenes to where the node and its origin are now.
+  /// Moves the scenes to the places of their anchors after the node or its origin has moved.
   void move(const sgm_grammar* grammar);
-  /// Removes all anchors and their scenes; announces it while the node is in the tree.
+  /// Removes all anchors and their scenes. Announces the removal if the node is in the tree.
   void clear();
 
  private:
@@ -33,8 +35,8 @@ class AnchorScenes {
   };
   WorldNode& node_;
   Anchors anchors_;
-  std::deque<sgm_anchor> unplaced_;              // anchors whose scenes are missing
-  std::unordered_map<uint64_t, Placed> scenes_;  // by the anchor's key
+  std::deque<sgm_anchor> unplaced_;              // anchors whose scenes are not instantiated yet
+  std::unordered_map<uint64_t, Placed> scenes_;  // scenes by key of their anchors
   Lifetime lifetime_;
 };
 

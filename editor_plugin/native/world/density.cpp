@@ -15,17 +15,17 @@ namespace {
 
 constexpr int64_t kMaxPoints = int64_t{1} << 27;
 
-/// The nearest whole number of units; nullopt if `units` is not finite or beyond the runtime's coordinates.
+/// Returns the nearest whole number of units; nullopt if `units` is not finite or beyond the runtime's coordinates.
 std::optional<int32_t> wholeUnits(double units) {
   if (!(std::abs(units) <= std::numeric_limits<int32_t>::max())) return {};
   return static_cast<int32_t>(std::lround(units));
 }
 
-/// Metres of full density between each point and the sun, from the topmost layer down: each layer's light comes through
-/// the one above it. `to_sun` points up.
+/// Computes the metres of full density between each grid point and the sun, layer by layer from the top: the light of a
+/// layer comes through the layer above. `to_sun` points upwards.
 class SunDepth {
  public:
-  /// `spacing`: metres, of the grid that was sampled.
+  /// `spacing`: metres between neighbouring points of the sampled grid.
   SunDepth(Vector3i size, double spacing, Vector3 to_sun)
       : width_(static_cast<size_t>(size.x)),
         depth_(static_cast<size_t>(size.z)),
@@ -35,7 +35,8 @@ class SunDepth {
         above_(width_ * depth_),
         here_(width_ * depth_) {}
 
-  /// `densities`: this layer's, x by x, rows `pitch` apart.
+  /// Processes the next lower layer, and returns its metres of density. `densities`: those of this layer; x varies
+  /// fastest; rows begin `pitch` bytes apart.
   const std::vector<float>& lower(const uint8_t* densities, size_t pitch) {
     for (size_t z = 0; z < depth_; ++z) {
       for (size_t x = 0; x < width_; ++x) {
@@ -66,7 +67,7 @@ class SunDepth {
 
 }  // namespace
 
-// On any thread, so nothing of the scene is read.
+// May run on any thread, so it must not read the scene.
 Bytes sampleDensity(const World& world, const Vector3& corner, double spacing, const Vector3i& size,
                     const Vector3& to_sun, double fade, double edge) {
   const ActiveSession::Placed placed = world.stage().active().placed();

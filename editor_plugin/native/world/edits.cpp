@@ -21,7 +21,7 @@ void place(const Placement& placement, const Vector3& position, int32_t units[3]
   for (size_t axis = 0; axis < 3; ++axis) units[axis] = wholeUnits(exact[axis]);
 }
 
-/// Whether a length of a brush is in its range; an error is reported if not. The runtime counts in units.
+/// Whether a length of a brush lies between `least` and 1,024 m; otherwise logs an error.
 bool isLength(const char* what, double metres, double least) {
   constexpr double kMost = 1024;
   if (metres >= least && metres <= kMost) return true;
@@ -31,7 +31,7 @@ bool isLength(const char* what, double metres, double least) {
 }
 constexpr double kLeast = 1.0 / SGM_UNITS_PER_METRE;
 
-/// A key that a brush may have, with the types of its value.
+/// A key of a brush dictionary, with the two types that its value may have.
 struct Key {
   const char* name;
   GDExtensionVariantType type, other;
@@ -50,7 +50,7 @@ constexpr Key kKeys[] = {
     {"tag", GDEXTENSION_VARIANT_TYPE_STRING, GDEXTENSION_VARIANT_TYPE_STRING_NAME, "a text"},
 };
 
-/// Whether a brush has no other keys and types than these; an error is reported if it has.
+/// Whether a brush has only known keys with values of the right types; otherwise logs an error.
 bool hasOnlyKeys(const Variant& brush) {
   const Variant names = brush.call("keys");
   const int64_t count = names.size();
@@ -102,7 +102,8 @@ std::optional<uint16_t> tagNumber(const World& world, const std::string& name) {
   return std::nullopt;
 }
 
-/// Announces an edit, and returns its id for scripts. The world may not exist afterwards.
+/// Emits the signal `edited`, and returns the edit's id for scripts. A handler of the signal may have destroyed the
+/// world.
 Integers announceEdit(World& world, const sgm_edit_id& id) {
   const Integers numbers = idOf(id);
   world.messages().announce("edited", numbers.value);
@@ -120,7 +121,7 @@ Integers lay(World& world, const sgm_brush& brush) {
   return announceEdit(world, id);
 }
 
-/// A sphere without a material; nullopt and an error if a length is out of its range.
+/// Returns a sphere without a material as a brush; nullopt, after logging an error, if a length is out of its range.
 std::optional<sgm_brush> sphere(const World& world, const Vector3& position, double radius, double smooth) {
   if (!isLength("radius", radius, kLeast) || !isLength("smooth", smooth, 0)) return std::nullopt;
   sgm_brush brush = SGM_BRUSH_INIT;
@@ -225,7 +226,7 @@ Bytes exportEdits(World& world, int64_t since) {
   size_t count = 0;
   sgm_error error = SGM_ERROR_INIT;
   sgm_result result;
-  // Edits may come from another thread between the two calls.
+  // Another thread may add edits between the call that returns the size and the call that copies the bytes.
   do {
     bytes.resize(count);
     result = sgm_world_export_edits(world.stage().session()->world(), static_cast<uint64_t>(since), bytes.data(),

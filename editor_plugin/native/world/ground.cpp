@@ -6,12 +6,13 @@
 namespace sgm_godot {
 namespace {
 
-constexpr int kMaxObstacles = 8;  // bodies between a viewer and its ground
-constexpr float kDepth = 32;      // metres below a viewer in which its ground is looked for
+constexpr int kMaxObstacles = 8;  // maximum number of other bodies between a viewer and its ground
+constexpr float kDepth = 32;      // metres below a viewer within which ground is searched
 
 }  // namespace
 
-// The engine's own ray decides: whatever else is known, a viewer must not fall.
+// A ray cast in the engine's physics decides, even if the world's field has ground here: without a collider, the viewer
+// would fall.
 bool hasGround(Vector3 position, const WorldNode& node, const Colliders& colliders, const Session& session) {
   const Aabb below{position - Vector3{1, kDepth, 1}, {2, kDepth, 2}};
   if (colliders.waitsIn(below)) return false;
@@ -21,7 +22,7 @@ bool hasGround(Vector3 position, const WorldNode& node, const Colliders& collide
   query.call("set_collision_mask", node.settings.collision_layer);
   const Variant space = node.call("get_world_3d").call("get_direct_space_state");
   Variant hit = space.call("intersect_ray", query);
-  // The viewer's own body, or a body below it, may be in the way.
+  // The ray may hit the viewer's own body, or another body below it, before the ground; such bodies are excluded.
   const Variant others = Variant::array();
   for (int i = 0; i < kMaxObstacles && hit.size() != 0 && hit.get("collider").object() != node.object; ++i) {
     others.call("push_back", hit.get("rid"));
@@ -29,7 +30,7 @@ bool hasGround(Vector3 position, const WorldNode& node, const Colliders& collide
     hit = space.call("intersect_ray", query);
   }
   if (hit.size() == 0 || hit.get("collider").object() != node.object) return false;
-  // The ray must have hit the ground that the world has there, and not something deeper.
+  // Requires that the ray has hit the ground that the world's field has here, and not a collider farther below.
   const Vector3 ground = hit.get("position").to<Vector3>();
   const Placement placement = node.placement();
   const Units from = placement.toUnits(position);

@@ -1,5 +1,5 @@
 #pragma once
-// The ground that a viewer can walk on.
+// Tests whether there is ground on which a viewer can walk.
 
 #include "colliders.h"
 #include "session.h"
@@ -7,8 +7,8 @@
 
 namespace sgm_godot {
 
-/// Whether a collider of the world lies below `position` (scene), at the height at which the world has its ground. Main
-/// thread, in a physics frame.
+/// Whether a collider of the world lies below `position` (scene coordinates) at the height of the ground in the world's
+/// field. Main thread only, during a physics frame.
 bool hasGround(Vector3 position, const WorldNode& node, const Colliders& colliders, const Session& session);
 
 }  // namespace sgm_godot

@@ -4,8 +4,8 @@
 
 namespace sgm_godot {
 
-/// Whether the object that has it as a member still exists. A function that runs scripts, which may end the object,
-/// takes a watch before, and reads the watch alone afterwards.
+/// As a member, tells whether the object that contains it still exists. A function that runs scripts, which may destroy
+/// the object, calls watch() before, and checks the watch before it uses the object again.
 class Lifetime {
  public:
   Lifetime() = default;

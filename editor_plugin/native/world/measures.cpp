@@ -24,7 +24,7 @@ uint64_t defectsOf(const sgm_chunk_sums& sums) {
   return total;
 }
 
-/// All drawn triangles. Positions are exact, from the first chunk's corner.
+/// The triangles of all drawn chunks. Positions are exact, relative to the first chunk's corner.
 struct Soup {
   std::vector<double> positions;  // metres
   std::vector<uint32_t> indices;
@@ -50,7 +50,7 @@ void addTriangles(const sgm_mesh_view& view, uint32_t seams, const int32_t base[
         return std::equal(&soup.positions[size_t{a} * 3], &soup.positions[size_t{a} * 3] + 3,
                           &soup.positions[size_t{b} * 3]);
       };
-      // Seams may have triangles without area, which measure nothing.
+      // Seams may have degenerate triangles without area, which are skipped.
       if (same(corner[0], corner[1]) || same(corner[1], corner[2]) || same(corner[0], corner[2])) continue;
       soup.indices.insert(soup.indices.end(), corner, corner + 3);
     }
@@ -68,7 +68,7 @@ Variant packed(const std::vector<T>& values) {
   return array.take();
 }
 
-// The engine's Mesh.ArrayType.
+// Values of the engine's enum Mesh.ArrayType.
 constexpr int64_t kVertex = 0, kNormal = 1, kColor = 3, kUv = 4, kIndex = 12, kArrays = 13;
 
 }  // namespace

@@ -1,16 +1,16 @@
 #pragma once
-// Measures of the meshes that an SgmWorld3D draws, and these meshes for scenes without the plugin: methods for scripts,
-// which the class reference describes. The results are empty if no session runs.
+// Measures of the drawn meshes of an SgmWorld3D, and copies of these meshes for scenes without the plugin. The
+// functions implement methods for scripts, which the class reference describes. Results are empty if no session runs.
 
 #include "world/world.h"
 
 namespace sgm_godot {
 
-/// The sums that the runtime keeps. Main thread.
+/// Returns the sums that the runtime keeps up to date. Main thread only.
 Dictionary drawnMeasures(const World& world);
-/// Measures with a histogram of dihedral angles, which take longer. Any thread.
+/// Measures all drawn triangles, with a histogram of dihedral angles; takes longer than drawnMeasures(). Thread-safe.
 Dictionary measureDrawn(const World& world, int64_t bins);
-/// Meshes, materials and collision faces of the drawn chunks. Main thread.
+/// Returns the meshes, materials and collision faces of the drawn chunks. Main thread only.
 Array bakeChunks(const World& world);
 
 }  // namespace sgm_godot

@@ -9,26 +9,26 @@
 
 namespace sgm_godot {
 
-/// The last error of a world, and the signals that wait until the work that they report is done: a handler of a signal
-/// may end the world or start another. Main thread.
+/// The last error of a world, and its pending signals. Signals are emitted only when the work that they report is done,
+/// since a handler may end the world or start another one. Main thread only.
 class Messages {
  public:
-  /// `owner`: the object whose signals they are.
+  /// `owner`: the object that emits the signals.
   explicit Messages(Object owner) : owner_(owner) {}
 
-  /// Empty if there is none.
+  /// Returns the last error; empty if there is none.
   const std::string& error() const { return error_; }
   void clearError() { error_.clear(); }
-  /// Keeps the error and announces `failed`.
+  /// Stores the error, and queues the signal `failed`.
   void fail(const std::string& message);
 
-  /// `signal` must be a literal. At most one argument.
+  /// Queues a signal for emit(). `signal` must be a string literal. A signal has at most one argument.
   template <class... Arguments>
   void announce(const char* signal, const Arguments&... arguments) {
     static_assert(sizeof...(Arguments) <= 1);
     announced_.push_back({signal, std::vector<Variant>{Variant(arguments)...}});
   }
-  /// Emits the announced signals. A call does this last, since the world may not exist afterwards.
+  /// Emits the queued signals. A function calls this as its last step, since a handler may destroy the world.
   void emit();
 
  private:

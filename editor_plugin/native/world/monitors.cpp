@@ -3,7 +3,7 @@
 namespace sgm_godot {
 namespace {
 
-/// The debugger's title of a figure, and its key in the statistics.
+/// The title of a figure in the debugger, and its key in the statistics.
 struct Monitor {
   const char* title;
   const char* key;
@@ -30,7 +30,8 @@ void Monitors::add(Object node) {
   const Variant figure = callable(node, Name("_monitor"));
   for (const Monitor& m : kMonitors) {
     const std::string id = owner + "/" + m.title;
-    if (server.call("has_custom_monitor", Name(id)).truth()) continue;  // another world of that name has them
+    // another world whose node has the same name has registered this figure
+    if (server.call("has_custom_monitor", Name(id)).truth()) continue;
     const Variant arguments = Variant::array();
     arguments.append(m.key);
     server.call("add_custom_monitor", Name(id), figure, arguments);

@@ -7,10 +7,10 @@
 
 namespace sgm_godot {
 
-/// The figures of a world that the engine's debugger plots. Main thread.
+/// Registers the figures of a world that the engine's debugger plots. Main thread only.
 class Monitors {
  public:
-  /// Adds them for a node, whose method `_monitor` returns the figures.
+  /// Registers the figures of a node, whose method `_monitor` returns their values.
   void add(Object node);
   void remove();
 

@@ -9,13 +9,13 @@
 namespace sgm_godot {
 namespace {
 
-// The engine's PropertyHint and PropertyUsageFlags.
+// Values of the engine's enums PropertyHint and PropertyUsageFlags.
 constexpr uint32_t kRange = 1, kResourceType = 17, kColorNoAlpha = 21;
 constexpr uint32_t kStored = 2, kShown = 4;
 
 constexpr std::string_view kParameters = "parameters/", kMaterials = "materials/", kColors = "colors/";
 
-/// The rest of a name after a prefix; empty if the name has another prefix.
+/// Returns the rest of a name after a prefix; empty if the name does not begin with the prefix.
 std::string after(const std::string& name, std::string_view prefix) {
   return name.size() > prefix.size() && name.compare(0, prefix.size(), prefix) == 0 ? name.substr(prefix.size())
                                                                                     : std::string();
@@ -31,15 +31,16 @@ std::optional<sgm_parameter_info> parameterOf(const sgm_grammar* grammar, const 
 
 std::string number(double value) { return numberText(value, 9); }
 
-/// Whole parameters are integers in the engine.
+/// Parameters that are whole numbers become integers in the engine.
 Variant parameterValue(const sgm_parameter_info& info, double value) {
   return info.whole != 0 ? Variant(static_cast<int64_t>(std::llround(value))) : Variant(value);
 }
 
-/// A slider over the parameter's range, in its unit; a field without bounds if the grammar gives none.
+/// Returns the inspector's hint for a parameter: a slider over its range, with its unit; where the grammar gives no end
+/// of the range, values beyond the slider are allowed.
 std::string rangeOf(const sgm_parameter_info& info) {
   const bool bounded = std::isfinite(info.minimum) && std::isfinite(info.maximum);
-  // The engine shows angles in degrees, and takes the range of what it shows.
+  // The inspector shows angles in degrees, and expects their range in degrees too.
   const double unit = info.quantity == SGM_QUANTITY_ANGLE ? 180 / 3.14159265358979323846 : 1;
   const double low = std::isfinite(info.minimum) ? info.minimum * unit : -1e6;
   const double high = std::isfinite(info.maximum) ? info.maximum * unit : 1e6;
@@ -56,7 +57,7 @@ std::string rangeOf(const sgm_parameter_info& info) {
 
 std::optional<Settings::Effect> setNamed(Settings& settings, const std::string& name, const Variant& value) {
   if (const std::string parameter = after(name, kParameters); !parameter.empty()) {
-    // The grammar need not have the parameter: a scene's values may come before its grammar.
+    // The value is stored even if the grammar has no such parameter: a scene may set values before it sets its grammar.
     const double wanted = value.to<double>();
     const auto found = settings.parameters.find(parameter);
     if (found != settings.parameters.end() && found->second == wanted) return Settings::kNothing;
@@ -113,7 +114,7 @@ std::vector<Instance::Property> namedProperties(const Settings& settings, const 
     list.push_back(
         {std::string(kColors) + name, GDEXTENSION_VARIANT_TYPE_COLOR, "", kColorNoAlpha, "", kStored | kShown});
   }
-  // Values for names that the grammar lacks for now, for example during an error, stay in the scene.
+  // Values for names that the grammar lacks for now, for example while it has an error, are still saved with the scene.
   const auto keep = [&](std::string_view prefix, const std::string& name, GDExtensionVariantType type) {
     const std::string whole = std::string(prefix) + name;
     if (std::none_of(list.begin(), list.end(), [&](const Instance::Property& p) { return p.name == whole; }))

@@ -6,40 +6,41 @@
 
 namespace sgm_godot {
 
-/// The pictures of a world in the engine's scene, each with its materials: that of the running session, and the
-/// previous one until the current one has something to show. Main thread.
+/// The pictures of a world in the engine's scene: that of the running session, and the previous one until the current
+/// one has something to show. Each has its own materials. Main thread only.
 class Pictures {
  public:
-  /// Names of the grammar's materials, and the settings that materials follow.
+  /// The names of the grammar's materials, and the settings that determine how materials look.
   struct Paint {
     std::vector<std::string> names;
     const Settings& settings;
   };
   explicit Pictures(Plugin& plugin) : plugin_(plugin) {}
 
-  /// Takes out the picture that shows something, the current one or the previous one; may return null.
+  /// Removes and returns the picture that currently shows chunks: the current one or the previous one; may be null.
   std::unique_ptr<Picture> take();
-  /// Puts a picture back that was taken.
+  /// Makes a picture that take() has returned the current one again.
   void giveBack(std::unique_ptr<Picture> picture) { current_ = std::move(picture); }
-  /// Begins an empty picture. `previous` stays in the scene until then. `look`: without materials.
+  /// Starts a new, empty picture. `previous` stays in the scene until the new picture shows chunks. `look`: its slots
+  /// and materials are ignored.
   void begin(std::unique_ptr<Picture> previous, const Paint& paint, Look look);
   void clear();
   void dropPrevious() { previous_.reset(); }
 
-  /// Changes the materials of what is drawn.
+  /// Changes the materials of the drawn chunks.
   void repaint(const Paint& paint);
-  /// Draws the session anew, where materials have other slots.
+  /// Packs and draws all chunks of the session again, because the materials have other slots.
   void repack(const Paint& paint, Look look, const Session& session);
   void setLook(const Look& look);
   void setPlacement(const Placement& placement);
 
-  /// Null if no session runs.
+  /// Returns null if no session runs.
   Picture* current() const { return current_.get(); }
   Materials& materials() { return materials_; }
   const Materials& materials() const { return materials_; }
 
  private:
-  std::unique_ptr<Picture> create(Look look) const;  // with the materials as they are
+  std::unique_ptr<Picture> create(Look look) const;  // makes a picture with the current materials
 
   Plugin& plugin_;
   Materials materials_, previous_materials_;

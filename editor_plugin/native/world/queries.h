@@ -1,6 +1,7 @@
 #pragma once
-// Questions about an SgmWorld3D, which its field answers, whether it is drawn there or not: methods for scripts, which
-// the class reference describes. They report errors to the engine's log, and return an empty value. Main thread.
+// Queries of an SgmWorld3D that its field answers, also where nothing is drawn. The functions implement methods for
+// scripts, which the class reference describes. On failure they log an error, and return an empty value. Main thread
+// only.
 
 #include "world/world.h"
 
@@ -11,7 +12,7 @@ Dictionary findClosestPoint(World& world, const Vector3& position, double max_di
 Points findPath(World& world, const Vector3& from, const Vector3& to, double radius);
 Array listAnchors(World& world, const Aabb& box);
 int64_t hashWorld(World& world, const Aabb& box, int64_t level);
-/// The box around everything that is drawn, in the node's coordinates.
+/// Returns the bounding box of all drawn chunks, in the node's coordinates.
 Aabb drawnBounds(const World& world);
 
 }  // namespace sgm_godot

@@ -9,8 +9,8 @@ namespace sgm_godot {
 
 class Colliders;
 
-/// The parts of a world that exist while its session runs: pictures, colliders and the scenes of anchors, streamed
-/// around viewers. Main thread, except active().
+/// Contains the parts of a world that exist while its session runs: pictures, colliders and the scenes of anchors,
+/// streamed around viewers. Main thread only, except active().
 class Stage {
  public:
   explicit Stage(WorldNode& node);
@@ -18,41 +18,43 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  /// Starts a session of the node's settings in place of the one that runs, and announces `restarted`; the previous
-  /// picture stays until the new one has something to show. On an error, which is reported, the running session stays,
-  /// unless it has to end first because of its journal.
+  /// Replaces the running session by one with the node's current settings, and announces the signal `restarted`. The
+  /// previous picture stays until the new one has something to show. On an error, which is reported, the running
+  /// session continues, unless it had to end first because of its journal.
   void start(const GrammarOwner& grammar);
   void stop();
 
-  // The following change a running session.
+  // The following functions change a running session.
   void setField(const GrammarOwner& grammar);
-  /// is_repacking: the materials have other slots.
+  /// Changes the materials. is_repacking: materials have other slots, so all meshes must be packed again.
   void repaint(bool is_repacking);
   void followLook();
   void followPlacement();
   void followBodyLayers();
 
-  /// A frame: hands over new parts of the world until `seconds_left` returns 0 or less.
+  /// Does the work of a frame: updates the session, and hands over meshes, colliders and scenes to the engine until
+  /// `seconds_left` returns 0 or less.
   void stream(double delta, const std::function<double()>& seconds_left);
-  /// Blocks until everything around the viewers is there, at most `seconds`. Returns whether it is.
+  /// Blocks until everything around the viewers is drawn, but at most `seconds`. Returns false after the timeout or an
+  /// error.
   bool waitUntilIdle(double seconds);
-  /// A physics frame: announces viewers that have ground now.
+  /// Does the work of a physics frame: announces viewers below which there is ground now.
   void lookForGround();
 
   bool isRunning() const { return session() != nullptr; }
   bool isIdle() const;
-  const std::shared_ptr<Session>& session() const { return active_.current(); }  // null if none runs
-  const ActiveSession& active() const { return active_; }                        // for any thread
+  const std::shared_ptr<Session>& session() const { return active_.current(); }  // null if no session runs
+  const ActiveSession& active() const { return active_; }                        // thread-safe
   void setOrigin(Vector3i origin) { active_.setOrigin(origin); }
   const Pictures& pictures() const { return pictures_; }
-  const Colliders* colliders() const { return colliders_.get(); }  // null if there are none
+  const Colliders* colliders() const { return colliders_.get(); }  // null if the world has no colliders
   Viewers& viewers() { return viewers_; }
 
  private:
   Look look() const;
   Pictures::Paint paint() const;
   void warnOfScale();
-  /// Tells the session of the viewers. Returns its error, if there is one.
+  /// Passes the viewers to the session. Returns the session's error; nullopt on success.
   Failure setViewers();
   void receive(const std::vector<sgm_world_event>& events);
   void show(const std::vector<Picture::Change>& changes);
@@ -65,7 +67,7 @@ class Stage {
   Viewers viewers_;
   bool was_idle_ = false;
   bool was_scaled_ = false;
-  bool colliders_first_ = false;  // in the next frame
+  bool colliders_first_ = false;  // in the next frame, colliders are made before pictures
 };
 
 }  // namespace sgm_godot

@@ -1,4 +1,4 @@
-// The work of a Stage in every frame.
+// The work that a Stage does in every frame.
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +15,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr uint64_t kBytesAFrame = 4 << 20;
-constexpr size_t kMaxWaiting = 512;  // parts of chunks; then the runtime waits for the engine
+// maximum number of pending uploads; at this number, no further events are taken from the runtime
+constexpr size_t kMaxWaiting = 512;
 
 }  // namespace
 
@@ -37,8 +38,8 @@ void Stage::stream(double delta, const std::function<double()>& seconds_left) {
     if (Failure failure = session()->update(kBytesAFrame, events)) node_.messages.fail(*failure);
     receive(events);
   }
-  // If the budget did not suffice for both, colliders come first in the next frame: players must not fall through what
-  // is drawn.
+  // colliders_first_ is set if the previous frame had no time left for colliders: players must not fall through ground
+  // that is drawn.
   const bool is_first = std::exchange(colliders_first_, false);
   if (is_first && colliders_) colliders_->advance(seconds_left(), viewers_.places());
   show(pictures_.current()->advance(seconds_left()));
@@ -55,7 +56,8 @@ void Stage::stream(double delta, const std::function<double()>& seconds_left) {
                                                     : MorphRanges(),
                                node_.settings.cell_size, node_.placement());
   const bool is_idle = isIdle();
-  if (is_idle) pictures_.dropPrevious();  // also if nothing of the new world is in view
+  // when idle, the previous picture is dropped even if nothing of the new world is in view
+  if (is_idle) pictures_.dropPrevious();
   if (is_idle && !was_idle_) node_.messages.announce("became_idle");
   was_idle_ = is_idle;
   anchor_scenes_.place(active_, seconds_left());

@@ -1,13 +1,14 @@
 #pragma once
-// The figures of an SgmWorld3D: methods for scripts, which the class reference describes. Main thread.
+// The figures of an SgmWorld3D. The functions implement methods for scripts, which the class reference describes. Main
+// thread only.
 
 #include "world/world.h"
 
 namespace sgm_godot {
 
-/// Empty if no session runs.
+/// Returns all figures by name; empty if no session runs.
 Dictionary statistics(const World& world);
-/// One of the statistics, for a monitor of the debugger; 0 if there is none with this key.
+/// Returns a single figure of the statistics, for the debugger; 0 if no figure has this key.
 double figure(const World& world, const std::string& key);
 
 }  // namespace sgm_godot

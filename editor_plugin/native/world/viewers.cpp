@@ -8,8 +8,10 @@
 namespace sgm_godot {
 namespace {
 
-constexpr double kFastest = 200;  // metres a second; a faster change of position is a leap
-constexpr float kLeap = 16;       // metres in a frame; after a leap the ground is another one
+// metres per second; a viewer that moves faster counts as teleported, with no velocity
+constexpr double kFastest = 200;
+// metres in a frame; after a longer move, the ground below the viewer must be checked again
+constexpr float kLeap = 16;
 
 }  // namespace
 

@@ -9,27 +9,28 @@
 
 namespace sgm_godot {
 
-/// The places that a world is streamed around, and for each viewer's node its last position and whether it has ground
-/// to walk on. Main thread.
+/// The positions around which a world is streamed. Also stores, for each viewer's node, its last position and whether
+/// it has ground to walk on. Main thread only.
 class Viewers {
  public:
   explicit Viewers(WorldNode& node) : node_(node) {}
 
-  /// Finds the current places: those of the viewers' nodes, else of the camera; in the editor, of the editor's camera.
-  /// `delta`: seconds since the previous call; 0 if unknown, then no viewer has a velocity.
+  /// Finds the current viewers: the nodes of the class SgmViewer3D; without any, the camera; in the editor, the
+  /// editor's camera. `delta`: seconds since the previous call; 0 if unknown, so that viewers get no velocity.
   void gather(double delta);
   void clear();
   /// `fov`: degrees.
   void setEditorView(const Transform& view, double fov);
 
-  /// Announces `walkable` for each viewer that has no ground yet, if there is some below its position (scene).
+  /// Announces the signal `walkable` for each viewer that had no ground so far, if has_ground() returns true for its
+  /// position (scene coordinates).
   void lookForGround(const std::function<bool(Vector3 position)>& has_ground);
   void forgetGround();
 
-  // One element for each viewer.
+  // Each of the following lists has one element for each viewer.
   const std::vector<sgm_viewer>& all() const { return viewers_; }
-  const std::vector<Vector3>& places() const { return places_; }  // in the scene
-  const std::vector<Units>& units() const { return units_; }      // in the world
+  const std::vector<Vector3>& places() const { return places_; }  // positions in scene coordinates
+  const std::vector<Units>& units() const { return units_; }      // positions in the world, in units
 
  private:
   struct Watched {
@@ -48,7 +49,7 @@ class Viewers {
   std::vector<sgm_viewer> viewers_;
   std::vector<Vector3> places_;
   std::vector<Units> units_;
-  std::unordered_map<uint64_t, Watched> watched_;  // by the id of the viewer's node
+  std::unordered_map<uint64_t, Watched> watched_;  // state of each viewer, by the id of its node
   std::optional<Transform> editor_view_;
   double editor_fov_ = 70;
 };

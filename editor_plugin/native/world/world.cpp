@@ -9,13 +9,13 @@
 namespace sgm_godot {
 namespace {
 
-// The engine's notifications.
+// Numbers of the engine's notifications.
 constexpr int32_t kEnterTree = 10, kExitTree = 11, kInternalProcess = 25, kInternalPhysicsProcess = 26,
                   kVisibilityChanged = 43, kTransformChanged = 2000;
 
-constexpr double kFileSeconds = 0.5;  // between looks at the grammar's file
+constexpr double kFileSeconds = 0.5;  // seconds between two checks whether the grammar's file has changed
 
-/// Whether the numbers that vertices carry mean the same in both.
+/// Whether two grammars have the same materials, tags and names, so that the numbers in vertices have the same meaning.
 bool sameNames(const sgm_grammar* a, const sgm_grammar* b) {
   const auto same = [&](auto count, auto name) {
     if (count(a) != count(b)) return false;
@@ -140,8 +140,8 @@ void World::start() {
   }
 }
 
-// The drawn world follows its place and look at once: its next frame may be later than that of the player, or be
-// paused.
+// Place and look are applied to the drawn world at once: the node's next frame may come after the player's, or never
+// while the game is paused.
 void World::mark(unsigned effects) {
   unfollowed_ |= effects;
   if (effects & (Settings::kLook | Settings::kPlacement)) followPlace();

@@ -10,9 +10,9 @@ namespace sgm_godot {
 
 struct ClassRecord;
 
-/// A node of the engine with a stage, and the changes that the stage has not followed yet. The methods for scripts that
-/// need nothing else are functions: edits.h, queries.h, density.h, measures.h, statistics.h. Main thread, except
-/// Stage::active().
+/// The C++ part of an SgmWorld3D node: its stage, and the changes of settings that are not yet applied to the stage.
+/// Most methods for scripts are functions in edits.h, queries.h, density.h, measures.h and statistics.h. Main thread
+/// only, except Stage::active().
 class World : public Instance {
  public:
   World(Plugin& plugin, Object self);
@@ -30,9 +30,10 @@ class World : public Instance {
   Messages& messages() { return node_.messages; }
   const FrameTimes& frameTimes() const { return times_; }
 
-  /// Whether a session runs. For calls from scripts: a world that has just been put into the scene starts at once.
+  /// Whether a session runs. A world that has just entered the scene starts its session now, so that scripts can call
+  /// its methods at once.
   bool isReady();
-  /// Changes a setting, unless it has the value already.
+  /// Changes a setting, and notes the effect of the change; does nothing if the setting already has the value.
   template <class T>
   void change(T Settings::*setting, T value, Settings::Effect effect) {
     if (isSameSetting(node_.settings.*setting, value)) return;
@@ -44,7 +45,8 @@ class World : public Instance {
   /// Handles the grammar's signal `changed`.
   void followGrammar();
   void restart() { mark(Settings::kRestart); }
-  /// Blocks until everything around the viewers is there, at most `seconds`. Returns whether it is.
+  /// Blocks until everything around the viewers is drawn, but at most `seconds`. Returns false after the timeout or an
+  /// error.
   bool waitUntilIdle(double seconds);
 
  private:
@@ -60,10 +62,10 @@ class World : public Instance {
 
   WorldNode node_;
   Stage stage_;
-  unsigned unfollowed_ = Settings::kNothing;  // effects of changes
+  unsigned unfollowed_ = Settings::kNothing;  // effects of changes that are not yet applied
   Monitors monitors_;
   FrameTimes times_;
-  double since_file_ = 0;  // seconds since the last look at the grammar's file
+  double since_file_ = 0;  // seconds since the last check of the grammar's file
 };
 
 }  // namespace sgm_godot

@@ -1,4 +1,4 @@
-// The members by which the engine, its inspector and scripts know an SgmWorld3D.
+// Registers the class SgmWorld3D with the engine: its methods, properties and signals, for scripts and the inspector.
 
 #include "godot/class_binder.h"
 #include "world/density.h"
@@ -11,7 +11,7 @@
 namespace sgm_godot {
 namespace {
 
-// The engine's PropertyHint and PropertyUsageFlags.
+// Values of the engine's enums PropertyHint and PropertyUsageFlags.
 constexpr uint32_t kLayersRender = 10, kLayersPhysics = 11, kFile = 13, kDirectory = 14, kResourceType = 17;
 constexpr uint32_t kReadOnlyShown = 1 << 28 | 4;
 

@@ -8,8 +8,8 @@
 
 namespace sgm_godot {
 
-/// The engine's node of a world, the values that a game chose for it, and its messages. All parts of a world share it.
-/// Main thread.
+/// The engine's node of a world, the settings that the game has chosen for it, and its messages. All parts of a world
+/// share this object. Main thread only.
 struct WorldNode {
   Plugin& plugin;
   Object object;
@@ -18,7 +18,7 @@ struct WorldNode {
   Variant grammar = {};  // an SgmGrammar, or nil
   bool in_tree = false;
 
-  /// Calls a method of the node.
+  /// Calls a method of the engine's node.
   template <class... Arguments>
   Variant call(std::string_view method, const Arguments&... arguments) const {
     return Variant(object).call(method, arguments...);

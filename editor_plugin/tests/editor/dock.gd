@@ -20,7 +20,7 @@ var _dock: Dock
 func run(plugin: EditorPlugin) -> void:
 	_plugin = plugin
 	_tree = plugin.get_tree()
-	# Otherwise the editor would draw only when something has changed.
+	# Draw continuously: by default, the editor draws only when something has changed.
 	OS.low_processor_usage_mode = false
 	_tree.root.mode = Window.MODE_WINDOWED
 	_tree.root.size = WINDOW
@@ -179,7 +179,8 @@ func _press(text: String) -> void:
 	_checks.check(false, "there is a button " + text)
 
 
-# The dock's own buttons. Buttons of its dialogs are also below it in the tree, but in separate windows.
+# Returns the dock's own buttons. Buttons of its dialogs, which are also below it in the tree but in separate windows,
+# are left out.
 func _buttons() -> Array[Node]:
 	return _dock.find_children("*", "Button", true, false).filter(_is_in_dock)
 

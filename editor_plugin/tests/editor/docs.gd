@@ -16,7 +16,7 @@ var _tree: SceneTree
 func run(plugin: EditorPlugin) -> void:
 	_plugin = plugin
 	_tree = plugin.get_tree()
-	# Otherwise the editor would draw only when something has changed.
+	# Draw continuously: by default, the editor draws only when something has changed.
 	OS.low_processor_usage_mode = false
 	for type in CLASSES:
 		var reference := _read("res://tests/doc/%s.xml" % type)
@@ -79,7 +79,7 @@ func _check_described(type: StringName, reference: Dictionary) -> void:
 				_checks.equal(reference[entry][key], there[entry][key], "%s: %s of '%s'" % [type, key, entry])
 
 
-## The registered members of a class, in the form of [method _read], but without texts.
+## Returns the registered members of a class, in the form of the result of [method _read], but without texts.
 func _registered(type: StringName) -> Dictionary:
 	var there := {}
 	var accessors := PackedStringArray()

@@ -134,7 +134,8 @@ func _check_world_property() -> void:
 	grammar.text = BROKEN
 	await _frames(5)
 	_checks.check(_panel().lines().size() == 2, "a world's grammar property has the error above it")
-	# When the grammar unfolds there, the engine also passes it to the plugin, which must not open its text then.
+	# When the grammar unfolds in the inspector, the engine also passes it to the plugin, which must not open its text
+	# then.
 	EditorInterface.set_main_screen_editor("3D")
 	var pickers := EditorInterface.get_inspector().find_children("*", "EditorResourcePicker", true, false).filter(
 			func(picker: EditorResourcePicker) -> bool: return picker.edited_resource == grammar)
@@ -161,7 +162,7 @@ func _check_reload() -> void:
 	var outer := load(importer) as SgmGrammar
 	_checks.check(outer.is_valid(), "a grammar that imports is right: " + outer.get_error_text())
 	await _seconds(1.2)
-	# Change the text as a user does: in the script editor, and save it there.
+	# Changes the text as a user does: in the script editor, and saves it there.
 	TextEditing.open(WRONG)
 	await _frames(3)
 	var text := TextEditing.shown_text()

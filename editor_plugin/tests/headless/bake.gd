@@ -41,7 +41,7 @@ func _initialize() -> void:
 	await cave.enter()
 	_refusals()
 	_checks.check(await cave.settle(), "the world comes to rest")
-	# Build with a second material.
+	# Builds something of a second material.
 	var floor_hit: Dictionary = _world.ray_cast(cave.viewer.global_position, Vector3.DOWN, 60)
 	_checks.equal(_world.build(floor_hit.position, 3.0, "calcite").size(), 2, "building")
 	if _checks.check(await cave.settle(), "what was built is drawn"):
@@ -164,7 +164,8 @@ func _anchors(scene: Node3D) -> void:
 
 
 func _bare_project() -> void:
-	# OS.get_executable_path() would be the dynamic loader if the engine was unpacked with a loader of its own.
+	# The harness sets GODOT. OS.get_executable_path() would be the dynamic loader if the engine was unpacked with a
+	# loader of its own.
 	var godot := OS.get_environment("GODOT")
 	if not _checks.check(not godot.is_empty(), "GODOT names the engine, as tests/run.sh sets it"):
 		return
@@ -287,7 +288,7 @@ func _load(path: String) -> Node3D:
 	return (ResourceLoader.load(path, "", ResourceLoader.CACHE_MODE_IGNORE) as PackedScene).instantiate() as Node3D
 
 
-# The corners of all triangles in scene coordinates, three for each triangle.
+# Returns the corners of all triangles in scene coordinates, three for each triangle.
 static func _corners(scene: Node3D) -> PackedVector3Array:
 	var corners := PackedVector3Array()
 	for node in scene.find_children("*", "", true, false):
@@ -331,7 +332,7 @@ static func _has_color(scene: Node3D, wanted: Color) -> bool:
 	return false
 
 
-# All files in the folder, including those whose names begin with a point, which must not be left.
+# Returns all files in the folder, including those whose names begin with a point, of which none must be left.
 static func _files() -> PackedStringArray:
 	var folder := DirAccess.open(FOLDER)
 	folder.include_hidden = true

@@ -55,7 +55,7 @@ func _menu() -> void:
 
 func _enter(path: String) -> DemoPlace:
 	var place: DemoPlace = (load(path) as PackedScene).instantiate()
-	# With shorter distances, the world becomes idle sooner.
+	# Shorter distances are set, so that the world becomes idle sooner.
 	if not place is DemoSky:
 		place.world.view_distance = 64.0
 		place.world.finest_distance = 24.0
@@ -109,7 +109,7 @@ func _cave(cave: DemoCave) -> void:
 	cave.fog = true
 	_checks.check(cave.environment.environment.volumetric_fog_enabled, "fog")
 
-	# With the settings for graphics cards, cells have another size, so the world is another one, with digs of its own.
+	# With the settings for graphics cards, cells have another size, so the cave is another world, with digs of its own.
 	cave.player.flying = false
 	cave.refine()
 	cave.world.view_distance = 64.0

@@ -21,7 +21,7 @@ func _initialize() -> void:
 	_world.grammar = grammar
 	_checks.check(_one(MIDDLE).is_empty(), "the answer is empty while no world runs")
 	root.add_child(_world)
-	# The world starts in its first frame.
+	# The world's session starts in its first frame.
 	for i in 3:
 		await process_frame
 	_values()
@@ -41,7 +41,7 @@ func _one(corner: Vector3) -> PackedByteArray:
 func _values() -> void:
 	_checks.equal(_one(MIDDLE)[0], 255, "inside it is full")
 	_checks.equal(_one(MIDDLE + Vector3(0, 4.5, 0))[0], 0, "outside it is empty")
-	# The formula in the header: 2 t^2 up to half of the edge, then 1 - 2 (1 - t)^2.
+	# The formula in sgm.h: 2 t^2 up to half of the edge, then 1 - 2 (1 - t)^2.
 	_checks.near(_one(MIDDLE + Vector3(3.75, 0, 0))[0], 255 * 0.125, 2, "a quarter of a metre deep")
 	_checks.near(_one(MIDDLE - Vector3(0, 3.25, 0))[0], 255 * 0.875, 2, "three quarters of a metre deep")
 	var softer := _world.sample_density(MIDDLE + Vector3(3, 0, 0), 1.0, Vector3i.ONE, Vector3.UP, FADE, 2.0)
@@ -61,7 +61,8 @@ func _values() -> void:
 func _light() -> void:
 	var column := _world.sample_density(Vector3(8, 0, 8), 0.5, Vector3i(1, 32, 1), Vector3.UP, FADE)
 	_checks.equal(column[2 * 31 + 1], 255, "above the ball it is bright")
-	# 8 m of the ball, of which the outer metre at each end has half the density on average.
+	# A vertical ray crosses 8 m of the ball. The outer metre at each end has half the density on average, so 7 m of
+	# full density remain.
 	_checks.near(column[1], 255 * exp(-7.0 / FADE), 3, "below it the light has come through all of it")
 	var falls := true
 	for y in range(1, 32):
@@ -129,6 +130,6 @@ func _wrong() -> void:
 		_checks.check(_world.sample_density(MIDDLE, 1.0, Vector3i.ONE, sun, FADE).is_empty(), "no sun: %s" % sun)
 	_checks.check(_world.sample_density(MIDDLE, 1.0, Vector3i.ONE, Vector3.UP, NAN).is_empty(), "no fade")
 	_checks.check(_world.sample_density(MIDDLE, 1.0, Vector3i.ONE, Vector3.UP, FADE, NAN).is_empty(), "no edge")
-	# The first point lies in the world, the last one outside.
+	# The first point lies within the runtime's coordinates, the last one outside.
 	_checks.check(_world.sample_density(Vector3(2_097_000, 0, 0), 1.0, Vector3i(4096, 1, 1), Vector3.UP, FADE).is_empty(),
 			"points beyond the world's end")

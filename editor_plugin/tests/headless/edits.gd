@@ -63,7 +63,7 @@ func _initialize() -> void:
 	_checks.equal(cave.world.flush_edits(), OK, "saving")
 	await cave.leave()
 
-	# Simulate the next run: a new world with the same journal.
+	# A new world with the same journal simulates the next run of the game.
 	cave = Cave.new(self)
 	cave.world.journal = JOURNAL
 	await cave.enter()
@@ -71,7 +71,7 @@ func _initialize() -> void:
 	_checks.equal(cave.world.ray_cast(cave.viewer.global_position, Vector3.DOWN, 60).material, "calcite", "and what was built")
 	await cave.leave()
 
-	# Simulate another player's world.
+	# A second world simulates another player's.
 	cave = Cave.new(self)
 	await cave.enter()
 	_checks.equal(cave.world.import_edits(bytes), OK, "another world takes them over")
@@ -83,7 +83,7 @@ func _initialize() -> void:
 	await _checks.finish(self)
 
 
-## The height of the ground below the viewer, according to a ray of the engine's physics.
+## Returns the height of the ground below the viewer, according to a ray of the engine's physics.
 func _physics_floor(cave: RefCounted) -> float:
 	for i in 3:
 		await physics_frame

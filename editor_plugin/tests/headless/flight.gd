@@ -60,7 +60,7 @@ func _initialize() -> void:
 	await _checks.finish(self)
 
 
-## The places of the viewer in successive frames along a path.
+## Returns the positions of the viewer in successive frames along a path.
 func _walked(way: PackedVector3Array) -> PackedVector3Array:
 	var places := PackedVector3Array()
 	var step := SPEED / Engine.max_fps

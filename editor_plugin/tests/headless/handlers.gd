@@ -75,7 +75,7 @@ func _arguments(signal_name: String) -> int:
 	return 0
 
 
-## A scene that consists of one node with a script.
+## Returns a scene that consists of one node with a script.
 func _scene_of(code: String) -> PackedScene:
 	var script := GDScript.new()
 	script.source_code = code

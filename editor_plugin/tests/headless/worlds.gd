@@ -155,6 +155,6 @@ func _missing_grammar() -> void:
 	await process_frame
 
 
-## A box around the hall of the viewer.
+## Returns a box around the hall of the viewer.
 func _box(cave: RefCounted) -> AABB:
 	return AABB(cave.viewer.global_position - Vector3.ONE * 24, Vector3.ONE * 48)

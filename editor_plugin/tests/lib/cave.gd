@@ -1,6 +1,6 @@
 extends RefCounted
-## Things that tests of the demo's cave share: a world, a viewer, known places, and a path through passages from hall to
-## hall.
+## State that several tests of the demo's cave share: a world, a viewer, known places, and a path through passages from
+## hall to hall.
 
 var tree: SceneTree
 var world: SgmWorld3D
@@ -31,7 +31,7 @@ func leave() -> void:
 		await tree.process_frame
 
 
-## The middles of the halls around the origin, nearest first.
+## Returns the middles of the halls around the origin, nearest first.
 func halls() -> PackedVector3Array:
 	var around := 420.0
 	var places: Array[Vector3] = []
@@ -52,7 +52,7 @@ func settle(seconds := 60.0) -> bool:
 	return false
 
 
-## A path through the passages from hall to hall, at least [param metres] long. Empty if there is none.
+## Returns a path through the passages from hall to hall, at least [param metres] long; empty if there is none.
 func passages(metres: float, radius := 0.8) -> PackedVector3Array:
 	var left := halls()
 	var way := PackedVector3Array([left[0]])

@@ -1,7 +1,6 @@
 extends "res://tests/rendered/closed.gd"
-## The same test with the Compatibility renderer (OpenGL), which receives vertices in another format. Pictures take far
-## longer in software, so the test draws fewer.
-## look, so there are fewer of them.
+## The test of rendered/closed.gd with the Compatibility renderer (OpenGL), which receives vertices in another format. A
+## software renderer takes far longer for its pictures, so the flight is shorter and has fewer of them.
 
 
 func _init() -> void:

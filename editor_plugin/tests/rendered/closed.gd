@@ -7,7 +7,7 @@ const Cave := preload("res://tests/lib/cave.gd")
 const BEHIND := Color(1, 0, 1)
 const SIZE := Vector2i(320, 240)
 
-## Minimum length of the flight, and distance between two pictures.
+## Minimum length of the flight, and distance between two pictures, in metres.
 var metres := 150.0
 var step := 1.5
 

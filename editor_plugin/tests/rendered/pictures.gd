@@ -22,7 +22,7 @@ func _cave() -> void:
 	await _settle(place)
 	_shoot_ready(place)
 	await _shoot("cave")
-	# Dig a hole, lit from the place where the player stands.
+	# Digs a hole, which is lit from the player's place.
 	place.world.dig(place.player.eye() + place.player.gaze() * 5.0 + Vector3.DOWN * 1.5, 1.5, 0.3)
 	await _settle(place)
 	await _shoot("cave_dug")

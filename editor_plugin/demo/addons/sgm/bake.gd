@@ -12,7 +12,8 @@ extends RefCounted
 ## exists.
 
 const ROUGHNESS := 0.85
-## Shaders in this folder read vertex attributes that only the plugin's own surfaces have.
+## Shaders in this folder read vertex attributes that only the surfaces drawn by the plugin have, so saved surfaces do
+## not use them.
 const OWN_FOLDER := "res://addons/sgm/"
 const PARTS: Array[int] = [Mesh.ARRAY_VERTEX, Mesh.ARRAY_NORMAL, Mesh.ARRAY_COLOR, Mesh.ARRAY_TEX_UV]
 
@@ -95,7 +96,7 @@ static func _finish(error: Error, unfinished: String, path: String) -> Error:
 	return _fail_to_write(path, error)
 
 
-# The editor excludes files from the project whose names begin with a point.
+# The name of the unfinished file begins with a point, so that the editor does not import it into the project.
 static func _unfinished(path: String) -> String:
 	return path.get_base_dir().path_join(".unfinished-" + path.get_file())
 
@@ -119,7 +120,7 @@ static func _fail(error: Error, sentence: String) -> Error:
 	return error
 
 
-# The nodes of the scene. The caller owns them.
+# Makes the nodes of the scene. The caller owns them.
 static func _tree_of(world: SgmWorld3D, chunks: Array[Dictionary], options: Dictionary, for_gltf: bool) -> Node3D:
 	var root := Node3D.new()
 	root.name = world.name
@@ -208,14 +209,14 @@ static func _plain_material(linear: bool) -> StandardMaterial3D:
 	return material
 
 
-# Colors with alpha 1: the world's vertex colors store the roughness in alpha.
+# Returns the colors with alpha 1: in the world's vertex colors, alpha is the roughness.
 static func _colors(colors: PackedColorArray, linear: bool) -> PackedColorArray:
 	for i in colors.size():
 		colors[i] = Color(colors[i].srgb_to_linear() if linear else colors[i], 1.0)
 	return colors
 
 
-# All chunks joined into one, with the world's own origin as its origin.
+# Joins all chunks into one mesh, with the world's own origin as its origin.
 static func _merged(chunks: Array[Dictionary], materials: Dictionary) -> Dictionary:
 	var surfaces := {}
 	var faces := PackedVector3Array()

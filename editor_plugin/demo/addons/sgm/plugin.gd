@@ -92,7 +92,7 @@ func _remove_grammar_tools() -> void:
 	_text_editing = null
 
 
-## The problem with the native library; empty if it exists and has this plugin's version.
+## Returns the problem with the native library; an empty text if the library exists and has this plugin's version.
 func _trouble() -> String:
 	if not ClassDB.class_exists(&"SgmWorld3D") or not ClassDB.class_exists(&"SgmGrammar"):
 		return "the native library in addons/sgm/bin is missing or does not load"

@@ -2,12 +2,12 @@
 extends GridContainer
 ## The buttons of the dock, which act on the selected world.
 
-## Emitted with a sentence about an error, or with an empty text.
+## Emitted with a sentence about an error; with an empty text if an action succeeded.
 signal told(sentence: String)
 
 const TextEditing := preload("text_editing.gd")
 const BAKE := "res://addons/sgm/bake.gd"
-## Largest seed of the button: short enough to type and to read out.
+## Largest seed that the button chooses: short enough to type and to read out.
 const MOST_SEED := 999_999
 
 var undo_redo: EditorUndoRedoManager

@@ -24,7 +24,7 @@ func _exit_tree() -> void:
 	_grammar.changed.disconnect(refresh)
 
 
-## The texts of the list, from top to bottom.
+## Returns the displayed texts, from top to bottom.
 func lines() -> PackedStringArray:
 	var texts := PackedStringArray()
 	for label: Label in find_children("*", "Label", true, false):
@@ -66,7 +66,7 @@ func _add(diagnostic: Dictionary) -> void:
 				TextEditing.open.bind(file, diagnostic.line, diagnostic.column))
 
 
-# The file of a diagnostic: paths of imported files are relative to the grammar's folder.
+# Returns the file of a diagnostic: paths of imported files are relative to the grammar's folder.
 func _file_of(diagnostic: Dictionary) -> String:
 	var file: String = diagnostic.file
 	return file if "://" in file else _grammar.resource_path.get_base_dir().path_join(file)

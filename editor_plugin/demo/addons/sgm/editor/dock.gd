@@ -6,7 +6,7 @@ const Preview := preload("preview.gd")
 const Histogram := preload("histogram.gd")
 const Actions := preload("actions.gd")
 const Measuring := preload("measuring.gd")
-## Seconds between two updates of the figures that are cheap to read.
+## Seconds between two updates of the figures that are cheap to compute.
 const PACE := 0.5
 const NONE := "–"
 const ROWS := {
@@ -86,7 +86,7 @@ func _process(delta: float) -> void:
 		refresh()
 
 
-## The displayed text of a figure, by its row's name in [constant ROWS].
+## Returns the displayed text of a figure, by its row's name in [constant ROWS].
 func figure(row: String) -> String:
 	return (_values[row] as Label).text
 
@@ -104,7 +104,7 @@ func say(sentence: String) -> void:
 	_message.visible = not sentence.is_empty()
 
 
-## Updates the figures that are cheap to read.
+## Updates the figures that are cheap to compute.
 func refresh() -> void:
 	var statistics := _world.get_statistics() if _world != null else {}
 	var measures := _world.get_measures() if _world != null else {}
@@ -120,7 +120,7 @@ func refresh() -> void:
 	_actions.refresh(_world, not statistics.is_empty())
 
 
-## A whole number with separated groups of three digits.
+## Formats a whole number with separated groups of three digits.
 static func grouped(number: float) -> String:
 	var digits := str(roundi(absf(number)))
 	for place in range(digits.length() - 3, 0, -3):

@@ -55,7 +55,7 @@ func _redraw(gizmo: EditorNode3DGizmo) -> void:
 		gizmo.add_mesh(_name_mesh(anchor.title), get_material("name", gizmo), Transform3D(Basis.IDENTITY, place))
 
 
-## The edges of the bounds of the drawn chunks, two points for each, in the world's own coordinates.
+## Returns the edges of the bounds of the drawn chunks, two points for each, in the world's own coordinates.
 static func bounds_lines(world: SgmWorld3D) -> PackedVector3Array:
 	var lines := PackedVector3Array()
 	var box := world.get_bounds()
@@ -63,8 +63,8 @@ static func bounds_lines(world: SgmWorld3D) -> PackedVector3Array:
 		return lines
 	for corner in 8:
 		for axis in 3:
-			# Bits 0, 1, 2 of a corner's index stand for z, y, x. An edge along an axis starts at the corners without
-			# that axis' bit.
+			# Bits 0, 1, 2 of a corner's index tell its end along z, y, x. The edges along an axis start at the corners
+			# without that axis' bit.
 			var bit := 4 >> axis
 			if corner & bit == 0:
 				lines.append(box.get_endpoint(corner))
@@ -72,12 +72,13 @@ static func bounds_lines(world: SgmWorld3D) -> PackedVector3Array:
 	return lines
 
 
-## Transforms of the anchors within [constant REACH] of the editor's camera, in the world's own coordinates.
+## Returns the transforms of the anchors within [constant REACH] of the editor's camera, in the world's own coordinates.
 static func anchors_near_camera(world: SgmWorld3D) -> Array[Transform3D]:
 	return _places(named_near_camera(world))
 
 
-## The same anchors, nearest first, as dictionaries with transform and title.
+## Returns the anchors within [constant REACH] of the editor's camera, nearest first, as dictionaries with transform and
+## title.
 static func named_near_camera(world: SgmWorld3D) -> Array[Dictionary]:
 	var found: Array[Dictionary] = []
 	var camera := Preview.editor_camera()
@@ -97,7 +98,7 @@ static func named_near_camera(world: SgmWorld3D) -> Array[Dictionary]:
 	return found
 
 
-## The lines of all anchors' crosses along one axis, two points for each.
+## Returns the lines along one axis of all anchors' crosses, two points for each line.
 static func anchor_lines(places: Array[Transform3D], axis: int) -> PackedVector3Array:
 	var lines := PackedVector3Array()
 	for place in places:

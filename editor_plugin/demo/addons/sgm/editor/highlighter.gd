@@ -27,7 +27,7 @@ const CLAUSES: Array[String] = [
 	"smooth", "solid", "stretch", "turn", "up", "uses", "within",
 ]
 const UNITS: Array[String] = ["cm", "deg", "km", "m", "mm", "rad"]
-## The editor setting with the color for each kind of word.
+## The editor setting that contains the color for each kind of word.
 const COLORS := {
 	comment = "comment_color", text = "string_color", number = "number_color", unit = "member_variable_color",
 	declaration = "keyword_color", control = "control_flow_keyword_color", operation = "keyword_color",
@@ -68,7 +68,7 @@ func _get_line_syntax_highlighting(line: int) -> Dictionary:
 	return colors
 
 
-## The parts of a line in order: the column where each begins, and its kind.
+## Returns the parts of a line in order: the column where each begins, and its kind.
 func kinds_of(text: String) -> Array[Array]:
 	var parts: Array[Array] = []
 	for found in _regex.search_all(text):

@@ -1,10 +1,8 @@
 @tool
 extends Control
-## A histogram of the dihedral angles of a surface's edges, as shares: concave edges on the left, flat ones in the
-## middle, convex ones on the right.
-##
-## The height of a bar is proportional to the square root of its share, so that the few sharp edges are visible beside
-## the many flat ones.
+## A histogram of the dihedral angles at a surface's edges: concave edges on the left, flat ones in the middle, convex
+## ones on the right. The height of a bar is proportional to the square root of the share of edges with its angles, so
+## that the few sharp edges are visible in addition to the many flat ones.
 
 ## Number of bars: odd, so that flat edges are all in one bar.
 const BINS := 33
@@ -12,10 +10,10 @@ const HEIGHT := 110.0
 const GAP := 1.0
 const LABELS: Array[String] = ["concave", "flat", "convex"]
 
-## The share of each bar, from the most concave to the most convex; empty before the first measurement.
+## The share of all edges in each bar, from the most concave to the most convex; empty before the first measurement.
 var shares := PackedFloat64Array()
 
-## The shares of all concave, flat and convex edges; empty before the first measurement.
+## The total shares of concave, flat and convex edges; empty before the first measurement.
 var _sums: Array[float] = []
 var _hovered := -1
 
@@ -58,7 +56,7 @@ func _get_tooltip(at_position: Vector2) -> String:
 			absf(degrees) - reach, absf(degrees) + reach]
 
 
-## Index of the bar at an x coordinate.
+## Returns the index of the bar at an x coordinate.
 func bin_at(x: float) -> int:
 	return clampi(floori(x / maxf(size.x, 1.0) * shares.size()), 0, maxi(shares.size() - 1, 0))
 
@@ -99,7 +97,7 @@ func _draw_bars(floor_y: float, accent: Color) -> void:
 	for bin in shares.size():
 		if shares[bin] <= 0.0:
 			continue
-		# A share above 0 is drawn at least one pixel high.
+		# A bar with a share above 0 is at least one pixel high.
 		var height := maxf(sqrt(shares[bin] / most) * (floor_y - 4.0), 1.0)
 		var bar := Rect2(bin * step + GAP / 2.0, floor_y - height, maxf(step - GAP, 1.0), height)
 		draw_rect(bar, Color(accent, 1.0 if bin == _hovered else 0.75))

@@ -7,7 +7,7 @@ const Diagnostics := preload("diagnostics.gd")
 const RowTip := preload("row_tip.gd")
 const PARAMETERS := "parameters/"
 
-# Set while the engine makes a property's default row on request of this plugin, since it then calls this plugin again.
+# True while this plugin lets the engine make a property's default row: the engine then calls this plugin again.
 var _makes_row := false
 
 
@@ -45,7 +45,7 @@ func _parse_property(object: Object, type: Variant.Type, name: String, hint: Pro
 	return true
 
 
-## The description of a parameter in the grammar, and its range. Empty if the grammar has no such parameter.
+## Returns the grammar's description of a parameter, and its range; an empty text if the grammar has no such parameter.
 static func tip_of(grammar: SgmGrammar, name: String) -> String:
 	for parameter: Dictionary in grammar.get_parameters():
 		if parameter.name == name:
@@ -65,7 +65,7 @@ static func _range_of(parameter: Dictionary) -> String:
 	return text
 
 
-# A value as its row shows it: angles in degrees.
+# Formats a value as the inspector's row shows it: angles in degrees.
 static func _value_of(parameter: Dictionary, value: float) -> String:
 	match parameter.quantity:
 		"length":

@@ -7,12 +7,12 @@ const PACE := 0.5
 ## Metres that the camera moves before the gizmo is updated with other anchors.
 const STEP := 4.0
 
-## The worlds in the edited scene.
+## All SG+M worlds in the edited scene.
 var worlds: Array[SgmWorld3D] = []
 
 var _root: Node
 var _rest := 0.0
-## By instance id of a world: the state for which its gizmo was last drawn.
+## The state for which each world's gizmo was last drawn, by the world's instance id.
 var _drawn := {}
 
 
@@ -32,13 +32,14 @@ func _process(delta: float) -> void:
 			world.set_editor_view(camera.global_transform, camera.fov)
 
 
-## The camera of the first viewport in the 3D editor; null if there is none.
+## Returns the camera of the first viewport in the 3D editor; null if there is none.
 static func editor_camera() -> Camera3D:
 	var viewport := EditorInterface.get_editor_viewport_3d(0)
 	return viewport.get_camera_3d() if viewport != null else null
 
 
-## The world that the dock shows: the selected one, otherwise the only one in the scene; null if there are several.
+## Returns the world that the dock shows: the selected one; without a selection, the only one in the scene; null if the
+## scene has several.
 func chosen_world() -> SgmWorld3D:
 	for node in EditorInterface.get_selection().get_selected_nodes():
 		if node is SgmWorld3D and node.is_inside_tree():

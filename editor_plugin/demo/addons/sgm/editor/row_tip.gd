@@ -26,6 +26,6 @@ func _cover() -> void:
 	_control.size = _row.size
 
 
-## The displayed text.
+## Returns the displayed text.
 func text() -> String:
 	return _control.tooltip_text

@@ -16,7 +16,7 @@ static func is_supported() -> bool:
 	return ClassDB.class_has_method(&"Resource", &"set_path_cache")
 
 
-## Adds the file extension of grammars to those that the editor opens as text, or removes it; other extensions stay.
+## Adds the file extension of grammars to those that the editor opens as text, or removes it. Other extensions stay.
 static func take_for_text(wanted: bool) -> void:
 	var settings := EditorInterface.get_editor_settings()
 	var endings := Array((settings.get_setting(SETTING) as String).split(",", false)).map(
@@ -67,13 +67,14 @@ static func give_back(path: String, grammar: SgmGrammar) -> void:
 	var text := load(path)
 	if text is SgmGrammar:
 		return
-	# Without a grammar, a temporary resource takes over the path; when it is released at the end, the path is free.
+	# Without a grammar, a temporary resource takes over the path. The path becomes free when that resource is released
+	# at the end of this function.
 	var heir: Resource = grammar if grammar != null else Resource.new()
 	heir.take_over_path(path)
 	text.call(&"set_path_cache", path)
 
 
-## The text control of the file that the script editor shows; null if it shows something else.
+## Returns the text control of the file that the script editor shows; null if it shows something else.
 static func shown_text() -> CodeEdit:
 	var shown := EditorInterface.get_script_editor().get_current_editor()
 	return shown.get_base_editor() as CodeEdit if shown != null else null
