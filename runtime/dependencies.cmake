@@ -1,4 +1,4 @@
-# The library's dependencies, found once for all folders. A missing package is reported by its name in Debian.
+# Finds the library's dependencies, once for all folders. The error for a missing package names its Debian package.
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 set(SGM_CONFIG_DEPENDENCIES "find_dependency(Threads)")
@@ -12,13 +12,14 @@ if(NOT SGM_SCALAR)
   set(SGM_PC_REQUIRES libhwy)
 endif()
 
-# Header-only: there is nothing to link.
+# xxHash is used as a header-only library, so there is nothing to link.
 find_path(SGM_XXHASH_INCLUDE xxhash.h)
 if(NOT SGM_XXHASH_INCLUDE)
   message(FATAL_ERROR "xxhash.h is missing: install the package libxxhash-dev")
 endif()
 
-# Headers only: the loader is opened at run time. The command also draws pictures with it.
+# Only the Vulkan headers are needed: the Vulkan loader is opened at run time. The command also draws pictures with
+# Vulkan.
 if(SGM_VULKAN OR NOT SGM_TOOLS STREQUAL "off")
   find_path(SGM_VULKAN_INCLUDE vulkan/vulkan.h)
   if(NOT SGM_VULKAN_INCLUDE)
@@ -26,7 +27,7 @@ if(SGM_VULKAN OR NOT SGM_TOOLS STREQUAL "off")
   endif()
 endif()
 
-# Headers only: libcurl is opened when a store on a server is first read.
+# Only the headers are needed: libcurl is opened at run time, when a store on a server is first read.
 if(SGM_HTTP_STORES)
   find_path(SGM_CURL_INCLUDE curl/curl.h)
   if(NOT SGM_CURL_INCLUDE)

@@ -1,5 +1,5 @@
-# sgm::sgm, the public library: the objects of every module in one library, shared or static as BUILD_SHARED_LIBS says,
-# which exports only the C interface.
+# sgm::sgm, the public library: contains the objects of all modules, is shared or static as BUILD_SHARED_LIBS says, and
+# exports only the C interface.
 include(GNUInstallDirs)
 
 set(SGM_MODULES base asset asset_read grammar_text grammar_std grammar_syntax grammar_range grammar_parse grammar_print
@@ -13,7 +13,7 @@ endif()
 add_library(sgm)
 add_library(sgm::sgm ALIAS sgm)
 set_target_properties(sgm PROPERTIES LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION}
-  SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # the interface may change with each 0.x
+  SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # the C interface may change with each minor version 0.x
 target_include_directories(sgm INTERFACE
   $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 foreach(module IN LISTS SGM_MODULES)
@@ -29,9 +29,9 @@ get_target_property(SGM_LIBRARY_TYPE sgm TYPE)
 if(SGM_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
   target_compile_definitions(sgm INTERFACE SGM_STATIC)
 else()
-  # Hidden visibility still exports template instances of the standard library; the map exports only the interface.
-  # Without this option, a user's link would be the first to notice a missing module. The sanitizers' own functions are
-  # undefined in a library.
+  # Hidden visibility does not hide template instances of the standard library; the linker's version script hides them.
+  # --no-undefined makes a missing module an error here, not only in a user's link. It is not used with sanitizers,
+  # whose functions are undefined in a library.
   if(NOT SGM_SANITIZE)
     set(SGM_NO_UNDEFINED LINKER:--no-undefined)
   endif()

@@ -1,18 +1,18 @@
-# Common flags of all our targets, and sgm_module(): one CMake target for each folder.
+# Defines the common compiler flags of all our targets, and sgm_module(): one CMake target for each folder.
 
 set(SGM_RUNTIME ${CMAKE_CURRENT_LIST_DIR})
 
 set(SGM_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wold-style-cast
-  # g++ 12 reports false overlaps (GCC bug 105651) and null pointers in its own inlined std::string and std::vector.
-  # clang++ reports an explicit double{f} as an implicit promotion.
+  # Warnings switched off for g++ 12 are false reports about its own inlined std::string and std::vector: overlaps (GCC
+  # bug 105651) and null pointers. clang++ reports an explicit double{f} as an implicit promotion.
   $<IF:$<CXX_COMPILER_ID:GNU>,-Wdouble-promotion;-Wno-restrict,-Wnull-dereference>)
 
 if(SGM_WERROR)
   list(APPEND SGM_WARNINGS -Werror)
 endif()
 
-# The arithmetic contract: no contraction into fma, no value-changing optimisation, in any target.
+# Flags that fulfil the arithmetic contract in every target: no contraction into fma, no value-changing optimisation.
 set(SGM_EXACT_FLAGS -ffp-contract=off -fno-fast-math)
 
 function(sgm_target_flags target)
@@ -22,13 +22,13 @@ function(sgm_target_flags target)
   target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${SGM_WARNINGS}> ${SGM_EXACT_FLAGS})
   if(SGM_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${SGM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
-      $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # instrumentation causes false warnings
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # g++ reports false positives in instrumented code
     target_link_options(${target} PUBLIC -fsanitize=${SGM_SANITIZE})
   endif()
 endfunction()
 
-# sgm_source_properties(FILES... PROPERTIES ...): set_source_files_properties, but a missing file is an error, since
-# otherwise the property would have no effect.
+# sgm_source_properties(FILES... PROPERTIES ...): same as set_source_files_properties, but a missing file is an error;
+# otherwise the properties would have no effect without notice.
 function(sgm_source_properties)
   cmake_parse_arguments(ARG "" "" "PROPERTIES" ${ARGN})
   foreach(file IN LISTS ARG_UNPARSED_ARGUMENTS)
@@ -39,8 +39,9 @@ function(sgm_source_properties)
   endforeach()
 endfunction()
 
-# sgm_include_root(TARGET): lets files include the caller's folder by its path below runtime/ (the folder cuda by its
-# name). Subfolders with a CMakeLists.txt are separate modules, and not visible.
+# sgm_include_root(TARGET): adds an include path by which files include headers of the caller's folder by their path
+# below runtime/ (for the folder cuda: by its name). Subfolders with their own CMakeLists.txt are separate modules and
+# not visible.
 function(sgm_include_root target)
   cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${SGM_RUNTIME} OUTPUT_VARIABLE path)
   if(path MATCHES "^\\.\\./")
@@ -49,8 +50,8 @@ function(sgm_include_root target)
   set(include_root ${CMAKE_CURRENT_BINARY_DIR}/include_root)
   file(GLOB modules ${CMAKE_CURRENT_SOURCE_DIR}/*/CMakeLists.txt)
   if(modules)
-    # If the build folder was configured before the folder had modules, this is a link to the source folder. Links that
-    # are created below it would replace the sources.
+    # If this build folder was configured before the folder had submodules, ${include_root}/${path} is a link to the
+    # source folder. Remove it: links created below it would replace the sources.
     if(IS_SYMLINK ${include_root}/${path})
       file(REMOVE ${include_root}/${path})
     endif()
@@ -65,7 +66,8 @@ function(sgm_include_root target)
   else()
     cmake_path(GET path PARENT_PATH parent)
     file(MAKE_DIRECTORY ${include_root}/${parent})
-    # If it was configured when the folder still had modules, this is a folder of links.
+    # If this build folder was configured when the folder still had submodules, ${include_root}/${path} is a folder of
+    # links. Replace it.
     if(NOT IS_SYMLINK ${include_root}/${path})
       file(REMOVE_RECURSE ${include_root}/${path})
     endif()
@@ -75,10 +77,11 @@ function(sgm_include_root target)
 endfunction()
 
 # sgm_module(NAME [BATCH count] SOURCES ... [LINK private libraries ...] [PUBLIC libraries whose headers ours include
-# ...]) makes the static library sgm_NAME from the caller's folder. Headers are included by their path below runtime/. A
-# folder sees only its own headers and those of the modules that it names. BATCH: number of files in a unit of a unity
-# build, for modules where shared headers dominate the compile time; names in unnamed namespaces must then be unique.
-# mesh has no BATCH, since more functions in a unit change inlining.
+# ...]): makes the static library sgm_NAME from the caller's folder. Headers are included by their path below runtime/;
+# a folder sees only its own headers and those of the modules that it names.
+#
+# BATCH: number of files per unit of a unity build, for modules where shared headers dominate the compile time; names in
+# unnamed namespaces must then be unique. mesh has no BATCH, because more functions in a unit change inlining.
 function(sgm_module name)
   cmake_parse_arguments(ARG "" "BATCH" "SOURCES;LINK;PUBLIC" ${ARGN})
   add_library(sgm_${name} STATIC ${ARG_SOURCES})
