@@ -79,6 +79,7 @@ printf 'sgm 1; units m; start A; rule A { at(8m, 2m, 8m) box(12m, 4m, 8m); }\n' 
 expect 0 "$SGM" render level.sgm --out top.svg --plan --json
 json 'j.plan.contour_interval === 0 && Math.abs(j.plan.highest - 4) < 0.1'
 lacks contour top.svg
+rm level.sgm top.svg
 
 # Refused calls must give one message.
 expect 1 "$SGM" render rooms.sgm --out wrong.svg --plan --region=1,14,1:4,18,4
