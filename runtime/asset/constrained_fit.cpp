@@ -148,7 +148,7 @@ class FaceMover {
         if (std::find(corner.by.begin(), corner.by.end(), f) != corner.by.end()) continue;
         LinearForm stays = moveOf(c, normalOf(f));
         stays.emplace_back(f, -1);
-        if (!system.hardConstraint(stays, 0, tolerance_)) return std::nullopt;
+        if (!system.addHardConstraint(stays, 0, tolerance_)) return std::nullopt;
       }
     }
     for (uint32_t c = 0; c < corners_.size(); ++c)
@@ -157,9 +157,9 @@ class FaceMover {
         along[axis] = 1;
         const double moved = wanted_[c][axis] - solid_.points[c][axis];
         if (maps_[static_cast<size_t>(axis)].isStiff(solid_.points[c][axis], tolerance_)) {
-          if (!system.hardConstraint(moveOf(c, along), moved, 8 * tolerance_)) return std::nullopt;
+          if (!system.addHardConstraint(moveOf(c, along), moved, 8 * tolerance_)) return std::nullopt;
         } else {
-          system.softConstraint(moveOf(c, along), moved, kPlaceWeight / (edge_ * edge_));
+          system.addSoftConstraint(moveOf(c, along), moved, kPlaceWeight / (edge_ * edge_));
         }
       }
     for (const auto& [a, b] : edges_) {
@@ -167,8 +167,8 @@ class FaceMover {
       const double size = length(way);
       LinearForm longer = moveOf(b, (1 / size) * way);
       for (const auto& [face, times] : moveOf(a, (1 / size) * way)) longer.emplace_back(face, -times);
-      const double softConstraint = dot((1 / size) * way, wanted_[b] - wanted_[a]) - size;
-      system.softConstraint(longer, softConstraint, 1 / (size * size));
+      const double change = dot((1 / size) * way, wanted_[b] - wanted_[a]) - size;
+      system.addSoftConstraint(longer, change, 1 / (size * size));
     }
     return moved(system.solve());
   }

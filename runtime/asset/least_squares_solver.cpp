@@ -45,7 +45,7 @@ void solvePositive(std::vector<double>& a, std::vector<double>& b) {
 
 LeastSquares::LeastSquares(size_t unknowns) : count_(unknowns), squares_(unknowns * unknowns, 0), right_(unknowns, 0) {}
 
-bool LeastSquares::hardConstraint(const LinearForm& form, double value, double tolerance) {
+bool LeastSquares::addHardConstraint(const LinearForm& form, double value, double tolerance) {
   Row row{0, std::vector<double>(count_, 0), value};
   for (const auto& [unknown, coefficient] : form) row.coefficients[unknown] += coefficient;
   for (const Row& known : rows_) {
@@ -73,7 +73,7 @@ bool LeastSquares::hardConstraint(const LinearForm& form, double value, double t
   return true;
 }
 
-void LeastSquares::softConstraint(const LinearForm& form, double value, double weight) {
+void LeastSquares::addSoftConstraint(const LinearForm& form, double value, double weight) {
   for (const auto& [i, a] : form) {
     for (const auto& [j, b] : form) squares_[i * count_ + j] += weight * a * b;
     right_[i] += weight * a * value;

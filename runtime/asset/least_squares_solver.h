@@ -17,9 +17,9 @@ class LeastSquares {
   explicit LeastSquares(size_t unknowns);
 
   /// Adds the hard constraint form = value. Returns false if it contradicts earlier ones by more than `tolerance`.
-  bool hardConstraint(const LinearForm& form, double value, double tolerance);
+  bool addHardConstraint(const LinearForm& form, double value, double tolerance);
   /// Adds the soft constraint weight * (form - value)^2.
-  void softConstraint(const LinearForm& form, double value, double weight);
+  void addSoftConstraint(const LinearForm& form, double value, double weight);
   /// Returns the values of the unknowns; the value is 0 for an unknown that no constraint determines.
   std::vector<double> solve() const;
 

@@ -269,7 +269,7 @@ SGM_API sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime*
 SGM_API sgm_result sgm_runtime_destroy(sgm_runtime* runtime);
 
 /* Returns how many bytes the runtime holds from the allocator now (live), and the maximum so far (peak). Either pointer
- * may be NULL. The memory of destroyed handles, at most 512 KiB, counts for peak and memory_limit, but not for live. */
+ * may be NULL. The list of destroyed handles, at most 512 KiB, counts for peak and memory_limit, but not for live. */
 SGM_API sgm_result sgm_runtime_memory(const sgm_runtime* runtime, uint64_t* live, uint64_t* peak);
 
 /* ------------------------------------------------------------------------------------------------------- backends */

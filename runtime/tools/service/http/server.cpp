@@ -51,11 +51,11 @@ namespace net = boost::asio;
 using Tcp = net::ip::tcp;
 
 /// Maximum number of surplus clients that concurrently get a 503. Further clients are closed without an answer.
-constexpr size_t kMaxRejected = 64;
+constexpr size_t kMaxTurnedAway = 64;
 /// Lower bound for the number of surplus clients, which is also limited to an eighth of all connections.
-constexpr size_t kLeastTurnedAway = 8;
+constexpr size_t kMinTurnedAway = 8;
 
-size_t mostTurnedAway(size_t connections) { return std::clamp(connections / 8, kLeastTurnedAway, kMaxRejected); }
+size_t maxTurnedAway(size_t connections) { return std::clamp(connections / 8, kMinTurnedAway, kMaxTurnedAway); }
 
 /// A reserved file descriptor. When the process cannot open more files, the server releases it to accept and close the
 /// next client, which would otherwise wait.
@@ -219,7 +219,7 @@ void LoopServer::welcome(Tcp::socket socket) try {
   const bool too_many = loop_.connections.size() - loop_.turned_away_now >= loop_.settings.connections;
   if (too_many) {
     loop_.counts.turned_away.fetch_add(1, std::memory_order_relaxed);
-    if (loop_.turned_away_now >= mostTurnedAway(loop_.settings.connections)) return;
+    if (loop_.turned_away_now >= maxTurnedAway(loop_.settings.connections)) return;
   }
   const auto connection = std::make_shared<Connection>(loop_, std::move(socket));
   loop_.connections.insert(connection);

@@ -143,7 +143,7 @@ class WatchedWorld {
     now.name = name_;
     if (const Result<void> asked = ask(now); !asked) return asked.error();
     now.taken = Clock::now();
-    max_failures_ = now.stats.chunks_in_vain = std::max(max_failures_, now.stats.chunks_in_vain);
+    max_in_vain_ = now.stats.chunks_in_vain = std::max(max_in_vain_, now.stats.chunks_in_vain);
     // Keep one sample older than kWindow, so that rates cover the whole interval.
     while (past_.size() > 1 && now.taken - past_[1].taken >= kWindow) past_.pop_front();
     past_.push_back({now.taken, now.stats.chunks_meshed, now.times.clock_seconds, now.times.job_seconds});
@@ -214,7 +214,7 @@ class WatchedWorld {
   const std::string name_;
   sgm_world* world_;
   std::deque<Past> past_;
-  uint64_t max_failures_ = 0;
+  uint64_t max_in_vain_ = 0;
   std::optional<double> speedup_;
   std::shared_ptr<const WorldMap> map_;
   Clock::time_point mapped_;
