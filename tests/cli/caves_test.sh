@@ -24,6 +24,21 @@ caves branchwork 100 0
 caves lake 100 16
 caves table4/cui 100 64
 
+# A passage that is far deeper than wide must be one void: it is cut by bores, one below the other, that must overlap.
+for passage in 'Canyon((-25m, 0m, 0m), (25m, -2m, 0m), 2m, 20m)' 'Keyhole((-25m, 0m, 0m), (25m, -2m, 0m), 2m, 12m)' \
+  'Keyhole((-25m, 0m, 0m), (25m, -2m, 0m), 0.5m, 40m)'; do
+  cat >deep.sgm <<END
+sgm 1;
+import "std/karst.sgm" as karst;
+domain finite box(200m, 240m, 160m) solid;
+rule Start { cut karst.$passage; }
+start Start;
+expect components(air above 8m3) == 1;
+END
+  expect 0 "$SGM" check --expect deep.sgm --cell 0.2
+  out_has 'deep.sgm: ok, its expectation holds'
+done
+
 # Negative test: the check must detect a hall that is cut off, and balls that float two metres below the ceilings.
 sed -e '/karst.Passage(/d' -e '/^expect /d' "$SOURCE/samples/grammars/cave.sgm" >cut_off.sgm
 echo 'expect components(air above 1m3) == 1 in block(4);' >>cut_off.sgm
