@@ -19,8 +19,8 @@ constexpr const char* kRock =
 using Key = std::tuple<int32_t, int32_t, int32_t, int32_t>;
 
 /// An engine that records the world's events, and releases the meshes in them.
-struct Engine {
-  ~Engine() {
+struct EditingEngine {
+  ~EditingEngine() {
     for (const auto& [key, mesh] : meshes) sgm_mesh_release(mesh);
     for (const auto& [key, collider] : colliders) sgm_collider_release(collider);
   }
@@ -82,7 +82,7 @@ uint64_t hashOf(sgm_world* world) {
   return hash;
 }
 
-void settle(sgm_world* world, Engine& engine) {
+void settle(sgm_world* world, EditingEngine& engine) {
   REQUIRE(sgm_world_wait_idle(world, nullptr, nullptr, nullptr) == SGM_OK);
   engine.poll(world);
 }
@@ -124,7 +124,7 @@ TEST_CASE("a dig is drawn, collided with and asked about, and its undo takes all
   sgm_world_desc desc = smallWorld();
   desc.collider_distance = 12;
   const WorldOwner world = makeViewedWorld(field.get(), desc);
-  Engine engine;
+  EditingEngine engine;
   settle(world.get(), engine);
   const uint64_t whole = hashOf(world.get());
 
@@ -219,7 +219,7 @@ TEST_CASE("a journal and a folder of chunks outlast the world", "[threads]") {
       edits = sgm_world_edits_hash(world.get());
     }
     CHECK(sgm_world_edits_hash(world.get()) == edits);
-    Engine engine;
+    EditingEngine engine;
     settle(world.get(), engine);
     if (again) {
       CHECK(hashOf(world.get()) == hash);
