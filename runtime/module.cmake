@@ -4,8 +4,9 @@ set(SGM_RUNTIME ${CMAKE_CURRENT_LIST_DIR})
 
 set(SGM_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wold-style-cast
-  # Warnings switched off for g++ 12 are false reports about its own inlined std::string and std::vector: overlaps (GCC
-  # bug 105651) and null pointers. clang++ reports an explicit double{f} as an implicit promotion.
+  # These warnings are off for g++ 12, which reports them falsely inside its own inlined std::string and std::vector:
+  # -Wrestrict for overlaps (GCC bug 105651), -Wnull-dereference for null pointers. -Wdouble-promotion is off for
+  # clang++, which reports an explicit double{f} as an implicit promotion.
   $<IF:$<CXX_COMPILER_ID:GNU>,-Wdouble-promotion;-Wno-restrict,-Wnull-dereference>)
 
 if(SGM_WERROR)
@@ -39,9 +40,9 @@ function(sgm_source_properties)
   endforeach()
 endfunction()
 
-# sgm_include_root(TARGET): adds an include path by which files include headers of the caller's folder by their path
-# below runtime/ (for the folder cuda: by its name). Subfolders with their own CMakeLists.txt are separate modules and
-# not visible.
+# sgm_include_root(TARGET): adds an include path for the headers of the caller's folder. Files include these headers by
+# their path below runtime/ (for the folder cuda: by its name). Subfolders with their own CMakeLists.txt are separate
+# modules, so their headers are not visible.
 function(sgm_include_root target)
   cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${SGM_RUNTIME} OUTPUT_VARIABLE path)
   if(path MATCHES "^\\.\\./")

@@ -29,8 +29,9 @@ Result<std::shared_ptr<Backend>> makeFor(sgm_runtime& runtime, BackendRequest re
   return std::shared_ptr<Backend>(std::move(*made));
 }
 
-/// Creates the automatic backend for a runtime with an external Vulkan device that shares memory with CUDA: CUDA if it
-/// can store meshes in that device's memory; otherwise that device if it is hardware; otherwise the CPU.
+/// Creates the automatic backend for a runtime with an external Vulkan device that shares memory with CUDA. The choice
+/// is CUDA if it can store meshes in the Vulkan device's memory; otherwise the Vulkan device if it is hardware, not a
+/// software renderer; otherwise the CPU.
 Result<std::shared_ptr<Backend>> createWithInterop(sgm_runtime& runtime) {
   Result<std::shared_ptr<Backend>> cuda = makeFor(runtime, requestFor(BackendKind::cuda));
   if (cuda) return cuda;
@@ -83,8 +84,8 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
 
 namespace {
 
-/// Releases a backend that was only queried, so that an external device can replace it. Error: busy if a field uses the
-/// backend, or if it is itself on an external device.
+/// Releases a backend that was created only for a query, so that an external device can replace it. Error: busy if a
+/// field uses the backend, or if the backend already runs on an external device.
 Result<void> yieldTo(DeviceBackends& shared, BackendKind kind, std::shared_ptr<Backend>& named, bool external) {
   const auto isKind = [kind](const std::shared_ptr<Backend>& kept) {
     return kept && kept->capabilities().kind == kind;
@@ -139,8 +140,8 @@ Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::Borrowed
     return made.error().code == Code::device_lost ? Error{Code::unsupported, made.error().message} : made.error();
   shared.cuda = std::move(*made);
   shared.external_context = true;
-  // CUDA becomes the automatic choice, unless that is already an external hardware Vulkan device that does not share
-  // memory with CUDA.
+  // CUDA becomes the automatic choice. Exception: the automatic choice is already an external hardware Vulkan device
+  // that does not share memory with CUDA.
   if (shared.drawing || !shared.external || shared.automatic != shared.vulkan) shared.automatic = shared.cuda;
   return {};
 }

@@ -106,7 +106,8 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
     MadeMeshes made(desc->count, memory);
     std::pmr::vector<std::optional<sgm::Error>> errors(desc->count, memory);
     const auto finish = [&](size_t i) {
-      // Moved out of the array, so that its memory is released after copying: a batch may contain many chunks.
+      // Move the chunk out of the array, so that its memory is freed as soon as it has been copied: a batch may contain
+      // many chunks.
       sgm::PlacedChunk chunk = std::move((*chunks)[i]);
       const sgm::ProfileScope scope(field->runtime.profiler, sgm::zone::kPack);
       auto surface = std::allocate_shared<sgm::ChunkSurface>(std::pmr::polymorphic_allocator<>(memory),
@@ -122,8 +123,8 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
       }
       made[i] = makeHandle<sgm_mesh>(field->runtime, std::move(surface));
     };
-    // If there are many requests, a job processes several: most chunks are empty, and take less time than scheduling a
-    // job.
+    // A job processes up to 8 requests in a row, if there are many: most chunks are empty, and meshing an empty chunk
+    // takes less time than scheduling a job.
     const size_t in_a_row = std::clamp<size_t>(desc->count / (4 * field->runtime.jobs->concurrency()), 1, 8);
     sgm::parallelFor(*field->runtime.jobs, (desc->count + in_a_row - 1) / in_a_row, [&](size_t row) {
       for (size_t i = row * in_a_row; i < std::min<size_t>((row + 1) * in_a_row, desc->count); ++i) finish(i);

@@ -98,8 +98,8 @@ sgm_result sgm_world_sample_density(sgm_world* world, const sgm_density_desc* de
     if (world == nullptr) return nullArgument(error, "world");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (sgm_result r = checkLevel(world->finest_cell, desc->level, error); r != SGM_OK) return r;
-    // The reference keeps this field alive and in use to the end, even if sgm_world_set_field replaces it in the
-    // meantime.
+    // This reference keeps the field alive until the function returns, even if sgm_world_set_field gives the world
+    // another field in the meantime.
     const std::shared_ptr<const sgm::WorldField> field = world->world->field();
     return sampleVolume(error, world->world->queryField(desc->level), *field, world->runtime, *desc);
   });

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-// The memory of destroyed handles is poisoned for AddressSanitizer, because it is not freed immediately, so that
-// AddressSanitizer alone would not detect a use after destruction.
+// The memory of destroyed handles is not freed at once, so AddressSanitizer alone would not detect that it is used. It
+// is therefore poisoned.
 #if defined(__SANITIZE_ADDRESS__)
 #define SGM_WATCHES_ADDRESSES 1
 #elif defined(__has_feature)

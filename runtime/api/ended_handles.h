@@ -1,6 +1,6 @@
 #pragma once
-// The header that precedes every handle in memory. This memory stays allocated for a while after the handle is
-// destroyed, so that destroying the handle twice is detected.
+// The header that precedes every handle in memory. The memory of a destroyed handle stays allocated for a while, so
+// that the library can detect if the handle is destroyed a second time.
 
 #include <atomic>
 #include <cstddef>
@@ -21,7 +21,8 @@ struct alignas(std::max_align_t) HandleHead {
   HandleHead* ended_after = nullptr;  ///< next element of the list of destroyed handles
 };
 
-/// Maximum size in bytes of header and handle together. sgm.h documents the resulting memory of destroyed handles.
+/// Maximum size in bytes of header and handle together. It limits the memory that destroyed handles occupy, which sgm.h
+/// documents.
 inline constexpr size_t kMaxHandleSize = 512;
 
 /// Adds an owner. Returns false, without any change, if the handle is already destroyed.

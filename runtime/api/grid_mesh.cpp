@@ -108,8 +108,9 @@ class GridMesher {
   /// it for both slabs.
   RawArray<uint64_t> shared_signs_, shared_uniform_;
   std::pmr::vector<std::atomic<uint8_t>> shared_;
-  /// Offsets in the mesh. first_vertex_ is indexed by plane, the others by the layer of cells above the plane. While a
-  /// slab is listed, they contain counts; once it is settled, sums of the counts of all lower planes or layers.
+  /// Offsets in the mesh's arrays: first_vertex_[z] for plane z, first_cell_[z] and first_triangle_[z] for the layer of
+  /// cells above plane z. Each is the sum of the counts of all lower planes or layers. Until a slab is settled, element
+  /// z + 1 contains only the count of plane or layer z.
   std::pmr::vector<uint64_t> first_vertex_, first_cell_, first_triangle_;
   GridMesh mesh_;
   std::atomic<bool> finite_{true}, stopped_{false};
@@ -168,7 +169,7 @@ void GridMesher::provide(uint64_t vertices, uint64_t triangles, size_t meshed) {
   job_.indices = mesh_.indices.data();
 }
 
-/// Stops all threads after an error, and wakes those that wait for slabs which will never be settled.
+/// Stops all threads after an error. Also wakes the threads that wait for slabs which will never be settled.
 void GridMesher::stop() {
   const std::lock_guard lock(mutex_);
   stopped_.store(true);
@@ -186,7 +187,7 @@ void GridMesher::readSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   stop();
 }
 
-/// Does the same as readSigns, but computes a plane that two slabs need only once.
+/// Same as readSigns, but a plane that two slabs share is computed only once.
 void GridMesher::takeSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   if (z % thick_ != 0) return readSigns(z, signs, uniform);
   const size_t slab = z / thick_, words = job_.lattice.words * grid_.size[1], rows = 2 * grid_.size[1];
@@ -265,8 +266,8 @@ void GridMesher::settle(Slab& slab) {
   settled_.notify_all();
 }
 
-/// Called when one of the readers of a slab's lists has finished; the last one returns the lists for reuse.
-/// Precondition: the caller holds mutex_.
+/// Called each time that a slab which needs this slab's lists has been meshed. The last of these calls returns the
+/// lists to the thread's unused lists. Precondition: the caller holds mutex_.
 void GridMesher::release(Slab& slab) {
   if (--slab.readers == 0) slab.worker->free.push_back(std::move(slab.lists));
 }
@@ -340,8 +341,8 @@ void GridMesher::work(Worker& worker) {
 
 Result<GridMesh> GridMesher::run() {
   shareOut();
-  // If there are no more slabs than threads, most slabs are listed before the first is meshed, so no estimate is
-  // needed.
+  // Estimate the mesh's size only if there are more slabs than threads. Otherwise, most slabs are listed, and so
+  // counted exactly, before the first is meshed.
   if (slabs_.size() > workers_.size()) expect();
   parallelFor(jobs_, workers_.size(), [&](size_t i) { work(*workers_[i]); });
   if (!finite_.load()) return Error{Code::invalid_argument, "a value of the grid is not finite", 0, 0};

@@ -26,8 +26,9 @@ void systemRelease(void*, void* memory, size_t, size_t alignment) {
 
 sgm_allocator systemAllocator() { return {systemAllocate, systemRelease, nullptr}; }
 
-/// Returns the size class of a block. A class spans an eighth of a power of two, so that a block can be reused for
-/// nearly equal sizes. A smaller block does not touch the pages at the end, so they cost no physical memory.
+/// Returns the number of a block's size class. A class spans an eighth of a power of two, so that a block can be reused
+/// for nearly equal sizes. A block smaller than its class never touches the pages at its end, so these cost no physical
+/// memory.
 size_t KeptBlocks::numberOf(size_t size) {
   const auto octave = static_cast<size_t>(std::bit_width(size - 1)) - 1;  // 2^octave < size <= 2^(octave + 1)
   const size_t step = (size_t{1} << octave) / kSteps;
@@ -45,7 +46,7 @@ bool KeptBlocks::keeps(size_t size, size_t alignment) {
 
 void* KeptBlocks::fromSystem(size_t size, size_t alignment) {
   if (void* memory = system_.allocate(system_.user, size, alignment)) return memory;
-  // Memory of unused blocks must not cause a failure, so they are freed before a second attempt.
+  // The request must not fail as long as the pool holds unused blocks: free all of them, and try again.
   dropAll();
   return system_.allocate(system_.user, size, alignment);
 }

@@ -20,8 +20,8 @@ class NoteLog {
   void tell(const GrammarChunk& cell);
 
  private:
-  /// Returns true if the note must be logged. Sets `last` to true if the maximum number is reached, so that only this
-  /// fact is logged.
+  /// Returns true if the note must be reported, because it is the first of its kind. Sets `last` to true if the maximum
+  /// number of kinds has been reached before: then only this fact is logged instead of the note.
   bool isNew(const DeriveNote& note, bool& last);
 
   const sgm_runtime& runtime_;

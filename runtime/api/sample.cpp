@@ -60,8 +60,8 @@ class Evaluation {
         box = box.joined({p, p});
       }
       sgm::prune(view, box, prune_scratch_, pruned_);
-      // A program that is proven uniform is not replaced, because only its sign is known after pruning, and exact
-      // values are needed here.
+      // If pruning proves that the field has one sign in the brick, the whole program is used: pruning then keeps only
+      // the sign, but exact values are needed here.
       if (!pruned_.solid() && !pruned_.empty()) view = pruned_.view();
     }
     for (size_t first = 0; first < places.size(); first += sgm::kEvalBlock)

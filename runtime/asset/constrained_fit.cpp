@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kShortest = 0.01;  ///< minimum length of a fitted edge, relative to its original length
 constexpr double kParallel = 1e-4;  ///< minimum determinant of three face normals that determine a corner
-/// Weight of the corners' target positions relative to the weight of edge lengths. It is small, but determines the
-/// positions of parts that no other constraint determines.
+/// Weight of the corners' target positions, relative to the weight of the edge lengths. It is small, so it decides only
+/// where no other constraint does.
 constexpr double kPlaceWeight = 1e-4;
 
 /// A vertex of the polyhedron, whose displacement is a linear function of its faces' displacements along their normals.
@@ -39,8 +39,8 @@ class FaceMover {
   }
 
  private:
-  /// Applies the maps to every point. This keeps the normals of axis-aligned faces; returns nullopt if any other face
-  /// would change its normal.
+  /// Applies the maps to every point, which keeps the normals of axis-aligned faces. Returns nullopt if the normal of
+  /// another face would change.
   std::optional<Polyhedron> byMaps() const {
     Polyhedron out = solid_;
     out.points = wanted_;
@@ -48,8 +48,8 @@ class FaceMover {
     for (size_t t = 0; t < out.triangles.size(); ++t)
       for (const uint32_t corner : out.triangles[t]) {
         const uint32_t f = out.face_of[t];
-        // In the file, a corner may be off its face's plane by up to the tolerance: keep that distance, so that mapping
-        // does not add to it.
+        // In the file itself, a corner may lie off its face's plane by up to the tolerance. Subtract this original
+        // distance, so that it does not count as a displacement by the maps.
         const double was = solid_.faces[f].plane.distance(solid_.points[corner]);
         const double offset = dot(out.faces[f].plane.normal, out.points[corner]) - was;
         if (known[f] && std::fabs(out.faces[f].plane.offset - offset) > 4 * tolerance_) return std::nullopt;
@@ -93,7 +93,7 @@ class FaceMover {
         }
   }
 
-  /// Returns the displacement of a corner along a direction, as a linear form of the faces' displacements.
+  /// Returns how far a corner moves along a direction, as a linear function of the displacements of the faces.
   LinearForm moveOf(uint32_t corner, Point direction, double times = 1) const {
     LinearForm form;
     for (size_t m = 0; m < 3; ++m)
@@ -109,7 +109,7 @@ class FaceMover {
       for (size_t k = 0; k < 3; ++k)
         halves.push_back({{solid_.triangles[t][k], solid_.triangles[t][(k + 1) % 3]}, solid_.face_of[t]});
     std::sort(halves.begin(), halves.end());
-    // The half-edges on borders between faces: (start corner, face) and end corner, sorted.
+    // The half-edges at the borders between faces. Key: start corner and face; value: end corner. Sorted by key.
     std::vector<std::pair<std::pair<uint32_t, uint32_t>, uint32_t>> next;
     for (const Half& half : halves) {
       const auto& [ends, face] = half;
@@ -131,7 +131,8 @@ class FaceMover {
         if (on == next.end() || on->first != std::pair{b, face}) break;
         b = on->second;
       }
-      // Both adjacent faces list the edge, in opposite directions: add it only in the direction with a < b.
+      // The edge is in the lists of both adjacent faces, in opposite directions. Add it only once, in the direction
+      // with a < b.
       if (corners_[b].sharp && a < b && dot(normalised(solid_.points[b] - solid_.points[a]), along) > 0.999)
         edges_.emplace_back(a, b);
     }

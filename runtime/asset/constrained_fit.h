@@ -19,13 +19,13 @@ struct AxisMap {
   };
   std::vector<Knot> knots;  ///< at least two knots, with ascending `from`
   /// For each interval between two knots: true if every point in it must map exactly (a hard constraint). If no
-  /// interval is stiff, only the two ends of the axis must.
+  /// interval is stiff, only the two ends of the axis must map exactly.
   std::vector<bool> stiff;
 
   double operator()(double at) const;
   bool isStiff(double at, double tolerance) const;
-  /// True if a point that has moved from `from` to `to` lies in the image of the interval between knots in which it
-  /// began, up to the tolerance.
+  /// Tests a point that has moved from `from` to `to`. The knots divide the axis into intervals; one of them contains
+  /// `from`. Returns true if `to` lies in the image of this interval, up to the tolerance.
   bool keeps(double from, double to, double tolerance) const;
   /// True if the map is strictly ascending, without a part that is almost flat.
   bool rises() const;

@@ -93,11 +93,11 @@ class CoverFinder {
     std::vector<uint32_t> count(void_.size(), 0);
     for (const Side side : sides)
       for (const uint32_t v : leftOut(side)) ++count[v];
-    // If no single side excludes some void cell (only several sides together), keep all sides: that is rare, and a
-    // smaller piece is also correct.
+    // A void cell may be excluded by no single side, but only by several sides together. This is rare; all sides are
+    // then kept, since a smaller piece is also correct.
     if (std::find(count.begin(), count.end(), 0u) != count.end()) return sides;
-    // Try to remove the sides first that exclude the most void cells and, among these, those that were cut last. They
-    // lie farthest inside: without them, sides farther outside may suffice.
+    // First tries to remove the sides that exclude the most void cells; among equals, the sides that were cut last.
+    // These sides lie farthest inside: once they are removed, sides farther outside may suffice.
     std::reverse(sides.begin(), sides.end());
     std::stable_sort(sides.begin(), sides.end(), [&](Side a, Side b) { return leftOut(a).size() > leftOut(b).size(); });
     std::vector<Side> kept;
@@ -232,7 +232,8 @@ class CoverFinder {
     }
   }
 
-  /// Adds a corner or a part of an edge of a face that two solid cells share, unless a void cell also touches it.
+  /// Adds a feature that is a corner of a portal or a part of a portal's edge, unless a void cell also touches the
+  /// feature. (A portal is a face that two solid cells share.)
   void meetingPoint(Feature feature) {
     for (const GrownPiece& piece : pieces_)
       if (covers(piece.sides, feature)) {
@@ -265,7 +266,8 @@ class CoverFinder {
         }
     for (size_t i = pieces_.size(); i-- > 0;) {
       const std::vector<uint32_t>& covers = pieces_[i].covers;
-      // A piece that covers no feature by the test of covers() is very thin; it was added for some feature, so keep it.
+      // Keep a piece that covers no feature according to covers(): it is very thin, but was added because some feature
+      // needs it.
       if (covers.empty() || !std::all_of(covers.begin(), covers.end(), [&](uint32_t f) { return count[f] > 1; }))
         continue;
       for (const uint32_t f : covers) --count[f];
@@ -286,10 +288,10 @@ class CoverFinder {
     return piece;
   }
 
-  /// Returns the material of the polyhedron's faces in the plane of a side; of several materials, the one with the
-  /// largest area within the piece.
+  /// Returns the material for a side of a convex piece: the material of the polyhedron's faces in that side's plane. If
+  /// there are several materials, it is the one with the largest area within the piece.
   uint32_t materialOf(Side side, const std::vector<Side>& sides) const {
-    // for each material: area of its faces within the piece, and in the whole plane
+    // for each material, two areas of its faces: within the piece, and in the whole plane
     std::map<uint32_t, std::pair<double, double>> areas;
     for (const uint32_t t : triangles_[2 * side.plane + (side.before ? 1 : 0)]) {
       const uint32_t face = solid_.face_of[t];

@@ -12,12 +12,13 @@
 
 namespace sgm::asset {
 
-/// A bounding plane of a convex piece, and the plane of at least one face of the polyhedron. The piece lies behind it.
+/// A plane that bounds a convex piece. The piece lies behind the plane, and at least one face of the polyhedron lies in
+/// it.
 struct PieceSide {
   Plane plane;
   uint32_t number = 0;  ///< identifies the plane and its direction; the same in all pieces
-  /// The material of the polyhedron's faces in that plane. If they have several materials, the one with the largest
-  /// area within the piece.
+  /// The material of those faces of the polyhedron that lie in `plane`. If these faces have several materials: the
+  /// material with the largest area within this convex piece.
   uint32_t material = kNoMaterial;
 };
 

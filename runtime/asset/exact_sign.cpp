@@ -72,7 +72,7 @@ void addProduct(Expansion<kMost>& sum, const Expansion<kA>& a, const Expansion<k
 }
 
 int signOf(double v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
-/// Returns the sign of the largest component: the components do not overlap, so it is the sign of the sum.
+/// Returns the sign of the sum. It is the sign of the largest component, because the components do not overlap.
 template <size_t kMost>
 int signOf(const Expansion<kMost>& e) {
   return e.size == 0 ? 0 : signOf(e.parts[e.size - 1]);

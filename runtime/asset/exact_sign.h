@@ -9,8 +9,8 @@
 
 namespace sgm::asset {
 
-/// Returns 1 if d lies behind the plane through a, b, c, 0 if in the plane, and -1 if in front of it. Seen from the
-/// front, a, b, c are counter-clockwise.
+/// Returns the side of the plane through a, b and c on which d lies: 1 behind the plane, 0 in it, -1 in front of it.
+/// The front is the side from which a, b, c appear counter-clockwise.
 int orientation(Point a, Point b, Point c, Point d);
 
 /// Projects the points along the axis `drop` (0..2) and returns 1 if a, b, c are counter-clockwise seen from the

@@ -21,7 +21,7 @@ Error refused(std::string message) { return {Code::bad_input, std::move(message)
 
 std::string along(int axis) { return std::string(" along ") + kAxes[axis]; }
 
-/// The stretching and the repeating zones along one axis.
+/// The zones along one axis of an asset: those that stretch, and those that are repeated.
 struct AxisPlan {
   std::vector<Stretch> stretches, repeats;  ///< sorted by `from`
   double length = 0;                        ///< length of the asset along the axis, in metres
@@ -56,8 +56,8 @@ struct AxisPlan {
     return out;
   }
 
-  /// Returns the map for the asset in which each repeating zone occurs once. After this map and then the repetition of
-  /// the zones, the asset has the length `size`.
+  /// Returns a map of positions along the axis. It stretches the asset in which each repeating zone occurs once, so
+  /// that the asset has the length `size` after the zones are repeated.
   AxisMap map(double size, size_t copies) const {
     const std::vector<Stretch>& free = stretches.empty() ? repeats : stretches;
     const double count = static_cast<double>(copies);
@@ -166,15 +166,15 @@ class Fitter {
     return out;
   }
 
-  /// Returns `copies` with one copy fewer along an axis, to try if the number of copies nearest to the size leaves too
-  /// little length for the stretching zones.
+  /// Returns `copies` with one copy fewer along an axis. This is tried if the number of copies nearest to the size
+  /// leaves too little length for the stretching zones.
   Copies oneFewer(Copies copies, size_t axis) const {
     if (!plans_[axis].repeats.empty() && copies[axis] > plans_[axis].leastCopies()) --copies[axis];
     return copies;
   }
 
-  /// Returns the asset in which each repeating zone occurs once, resized so that it has the given size after the
-  /// repetition; nullopt if that is impossible.
+  /// Returns the asset in which each repeating zone occurs once. It is resized so that it has the given size after the
+  /// zones are repeated; nullopt if that is impossible.
   Result<std::optional<Polyhedron>> fitted(Point size, const Copies& copies) const {
     std::array<AxisMap, 3> maps;
     Polyhedron taken;

@@ -15,8 +15,8 @@ constexpr double kThinnest = 1e-3;  ///< minimum size of an asset along each axi
 /// from the plane decide.
 constexpr double kAlike = 0.99;
 
-/// Sets components of a unit normal that are as small as the rounding of a file's floats to 0, so that faces
-/// perpendicular or parallel to an axis are exactly so.
+/// Sets to 0 the components of a unit normal that are as small as the rounding errors of a file's floats. Faces that
+/// are nearly perpendicular or parallel to an axis thus become exactly so.
 Point straightened(Point normal) {
   constexpr double kRounding = 4e-6;
   for (int axis = 0; axis < 3; ++axis)

@@ -24,7 +24,8 @@ struct Face {
   uint32_t material = kNoMaterial;
 };
 
-/// A closed mesh: every edge has equally many triangles in each direction. Parts of the mesh may touch and overlap.
+/// A closed mesh: along every edge, as many triangles run in one direction as in the other. Parts of the mesh may touch
+/// and overlap.
 struct Polyhedron {
   std::vector<Point> points;
   std::vector<std::array<uint32_t, 3>> triangles;

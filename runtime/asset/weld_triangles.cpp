@@ -123,7 +123,7 @@ class Welder {
     return any;
   }
 
-  /// Returns, of the corners that lie on the edge strictly between a and b, the one nearest to a; nullopt if there is
+  /// Of the corners that lie on the edge strictly between a and b, returns the one nearest to a; nullopt if there is
   /// none. corners: sorted by x.
   std::optional<uint32_t> cornerBetween(uint32_t a, uint32_t b, const std::vector<uint32_t>& corners) const {
     const Point from = out_.points[a], along = out_.points[b] - from;

@@ -28,7 +28,7 @@ const char* backendName(BackendKind kind);
 struct BackendCapabilities {
   BackendKind kind = BackendKind::cpu;
   std::string device;        ///< name of the device, or of the instruction set in use
-  bool exact = true;         ///< true: bit-exact, by the arithmetic contract (runtime/README.md)
+  bool exact = true;         ///< true: results are bit-exact, by the arithmetic contract (runtime/README.md)
   uint32_t concurrency = 1;  ///< number of chunks that are processed concurrently
   bool software = false;     ///< true: the CPU emulates the device
   /// true: supports ChunkJob::resident and upload(), because it uses the engine's own device
@@ -55,25 +55,27 @@ struct ChunkJob {
   ChunkGrid grid;
   std::shared_ptr<const FieldProgram> field;   ///< program of the field at grid.level
   std::shared_ptr<const FieldProgram> coarse;  ///< program of the field at grid.level + 1; null if no seam is requested
-  uint8_t seams = 0;                           ///< the seams to make: bit (1 << Face)
+  uint8_t seams = 0;                           ///< the seams to make: for each, bit 1 << Face
   /// set of the blocks around the chunk that have a coarser level; affects only VertexKey::fan in seams
   Neighbourhood coarser = 0;
   bool signs = false;  ///< true: also return the signs of the samples
   bool keys = true;    ///< true: return vertex keys (MeshPart::keys); false: parts may come without keys
-  bool body = true;    ///< true: mesh the body; false: only seams, and body, signs and counts stay empty
+  bool body = true;    ///< true: mesh the body; false: mesh only seams, and leave body, signs and counts in the result
+                       ///< empty
   /// true: return only the sums over the meshes (ChunkMesh::sums), so that a device need not download the meshes
   bool sums_only = false;
-  bool resident = false;  ///< true: also keep vertices and indices on the device, if it is the engine's own
+  bool resident = false;  ///< true: if the device is the engine's own, also keep vertices and indices on it
   bool prompt = false;    ///< true: let the CPU mesh the chunk instead of waiting until the device is ready
 };
 
 /// The result for a chunk. Parts without triangles are empty, with hash 0.
 struct ChunkMesh {
   MeshPart body;
-  std::vector<MeshPart> seams;  ///< six seams by Face; empty if no seam was requested
-  uint32_t solid_samples = 0;   ///< number of solid samples, except those in the chunk's high faces
-  uint32_t rounded = 0;         ///< number of loops of the body whose sharp features could not be made (sharpenBody)
-  bool uniform = false;         ///< true: the chunk is proven solid or void without sampling, and has no body
+  /// one seam for each face of the chunk, indexed by Face; empty if no seam was requested
+  std::vector<MeshPart> seams;
+  uint32_t solid_samples = 0;  ///< number of solid samples, except those in the chunk's high faces
+  uint32_t rounded = 0;        ///< number of loops of the body whose sharp features could not be made (sharpenBody)
+  bool uniform = false;        ///< true: the chunk is proven solid or void without sampling, and has no body
   /// Signs of the samples, in the format of ChunkSamples::signs, if requested and the chunk is not uniform. For a
   /// uniform chunk, solid_samples says whether it is solid.
   std::pmr::vector<uint64_t> signs;

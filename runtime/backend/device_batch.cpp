@@ -13,10 +13,11 @@ struct DeviceCounters {
   std::atomic<uint64_t> chunks{0}, on_cpu{0}, device_lost{0}, batches{0};
 };
 
-/// After this many failures in a row, the device is not opened again, because opening it takes longer than a batch.
+/// After this many failures in a row, the device is not opened again: each attempt to open it takes longer than a
+/// batch.
 constexpr unsigned kMaxFailures = 8;
 
-/// State that the backend shares with its batches. The batches must not outlive it.
+/// State that the backend shares with its batches. It must outlive the batches.
 struct DeviceShared {
   OpenSession open;
   std::unique_ptr<Backend> cpu;
@@ -24,13 +25,14 @@ struct DeviceShared {
   Profiler profiler;
   DeviceCounters counters;
   std::mutex mutex;
-  std::shared_ptr<DeviceSession> session;  ///< null: the device was lost, and is not open
+  /// the open device; null after a loss, until the next batch opens the device again
+  std::shared_ptr<DeviceSession> session;
   WarnOf warn;
   std::string name;
   /// The number of losses and failed openings since the last batch that succeeded.
   std::atomic<unsigned> in_vain{0};
 
-  /// Drops a session whose device is lost: the next batch opens the device again.
+  /// Gives up a session whose device is lost, so that the next batch opens the device again.
   void leave(const std::shared_ptr<DeviceSession>& lost, const Error& why) noexcept {
     {
       const std::scoped_lock lock(mutex);
@@ -44,7 +46,7 @@ struct DeviceShared {
       warn(name + " was lost, and the CPU continues: " + why.message);
       if (in_vain.load() == kMaxFailures) warn(name + " is no longer used: it was lost repeatedly");
     } catch (const std::bad_alloc&) {
-      // There is no memory for the message; the counter still shows the loss.
+      // There is not enough memory for the message, so no warning is sent; the counter still records the loss.
     }
   }
 };
@@ -70,7 +72,8 @@ class DeviceBatch final : public ChunkBatch {
     const bool prompt = std::any_of(jobs_.begin(), jobs_.end(), [](const ChunkJob& job) { return job.prompt; });
     size_t first = 0;
     while (session_ && first < jobs_.size()) {
-      // The slot is stored first: if anything throws, the destructor waits for the device and returns the slot.
+      // Stores the slot in slots_ first. If anything throws later, the destructor waits for the device and returns the
+      // slot.
       slots_.reserve(slots_.size() + 1);
       slots_.push_back(session_->takeSlot());
       DeviceSlot& slot = *slots_.back();
@@ -87,7 +90,7 @@ class DeviceBatch final : public ChunkBatch {
   }
 
   bool poll() override {
-    // A thread in wait() holds the lock until the end of the batch, so the lock is only tried.
+    // Only tries to lock: a thread in wait() holds the lock until the end of the batch.
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return false;
     if (ended_) return true;
@@ -126,7 +129,8 @@ class DeviceBatch final : public ChunkBatch {
     if (error.code == Code::device_lost) shared_.leave(session_, error);
   }
 
-  /// Runs `work` and stores its exception for take(): callers of poll() and wait() cannot catch exceptions.
+  /// Runs `work`. An exception is stored, and take() reports it later: callers of poll() and wait() cannot catch
+  /// exceptions.
   template <class Work>
   void guarded(const Work& work) noexcept {
     try {
@@ -197,7 +201,8 @@ class DeviceBatch final : public ChunkBatch {
     }
   }
 
-  /// Reads the slot's results. Returns true if the device now works in the slot again, to copy meshes that stay on it.
+  /// Reads the results of a slot. Returns true if the device has begun further work in the slot: it copies the meshes
+  /// that stay in its memory.
   bool readSlot(DeviceSlot& slot) {
     const auto done = [&](size_t job) {
       finished(slot.first + job);
@@ -248,9 +253,10 @@ class DeviceBatch final : public ChunkBatch {
   AfterChunk after_chunk_;
   std::vector<ChunkMesh> meshes_;
   std::vector<bool> done_;
-  std::vector<std::unique_ptr<DeviceSlot>> slots_;  ///< slots of this batch; after reading, only those still in use
-  std::unique_ptr<ChunkBatch> rest_;                ///< batch of the CPU, with the jobs that the device has not done
-  std::vector<size_t> numbers_;                     ///< indices of the jobs in rest_
+  /// slots of this batch; after reading, only those in which the device still works
+  std::vector<std::unique_ptr<DeviceSlot>> slots_;
+  std::unique_ptr<ChunkBatch> rest_;  ///< batch of the CPU, with the jobs that the device has not done
+  std::vector<size_t> numbers_;       ///< for each job of rest_: its index in this batch
   std::atomic<bool> cancelled_{false};
   std::mutex mutex_;
   bool read_ = false, ended_ = false, skipped_ = false;
@@ -287,7 +293,7 @@ class DeviceBackend final : public Backend {
     return std::unique_ptr<ChunkBatch>(std::move(batch));
   }
   uint32_t batch() const override {
-    // Another thread holds this lock for long only while it opens the device. So the lock is only tried.
+    // The lock is only tried, not awaited: another thread may hold it for a long time, while it opens the device.
     const std::unique_lock lock(shared_.mutex, std::try_to_lock);
     return lock && shared_.session ? shared_.session->batch() : 1;
   }

@@ -1,6 +1,6 @@
 #pragma once
 // Meshes chunks on a device of any kind in batches. The CPU meshes the chunks for which the device has no memory, and
-// those of a device that is lost.
+// all chunks that the device has not finished when it is lost.
 
 #include <functional>
 #include <memory>
@@ -19,16 +19,17 @@ class DeviceSlot {
   virtual ~DeviceSlot() = default;
   size_t first = 0;        ///< index in the batch of the slot's first job
   bool submitted = false;  ///< true if work was submitted, even in part: the device must be waited for
-  bool stuck = false;      ///< true if it is unknown whether the device has finished
+  bool stuck = false;      ///< true if it is unknown whether the device has finished; the slot is then never reused
 };
 
-/// A device with everything that was created on it; exists as long as any batch or mesh of it. Thread-safe, but a slot
-/// must be used by one thread at a time. The destructor waits for the device.
+/// An open device with everything that was created on it. It exists as long as any batch or mesh of the device.
+/// Thread-safe, but a slot must be used by one thread at a time. The destructor waits for the device.
 class DeviceSession {
  public:
   virtual ~DeviceSession() = default;
 
-  /// Returns the capabilities, which are the same for every session that replaces this one after a loss.
+  /// Returns the capabilities of the device. If the device is lost and another session replaces this one, its
+  /// capabilities are the same.
   virtual BackendCapabilities capabilities() const = 0;
   /// Same as Backend::batch().
   virtual uint32_t batch() const = 0;
@@ -37,22 +38,23 @@ class DeviceSession {
   virtual std::unique_ptr<DeviceSlot> takeSlot() = 0;
   /// Takes back a slot that takeSlot() has returned.
   virtual void release(std::unique_ptr<DeviceSlot> slot) noexcept = 0;
-  /// Plans jobs for one submission. Returns how many of the jobs were planned, from the first on; at least one.
+  /// Plans the first n jobs for one submission, as many as fit, but at least one. Returns n.
   virtual size_t plan(std::span<const ChunkJob> jobs, DeviceSlot& slot) = 0;
   /// Returns the indices of the planned jobs that are uniform: they have no surface, and need no device.
   virtual std::span<const uint32_t> uniform(const DeviceSlot& slot) const = 0;
   /// True if the plan contains work for the device.
   virtual bool hasWork(const DeviceSlot& slot) const = 0;
-  /// True if submit() would not wait for preparations, such as compiling shaders. If false, this call has started them.
+  /// True if submit() can begin at once. False if it would have to wait for preparations, such as compiling shaders;
+  /// this call has then started them.
   virtual bool ready(const DeviceSlot&) noexcept { return true; }
   /// Submits the planned work. Errors: device_lost, out_of_memory, limit, unsupported. Throws std::bad_alloc.
   virtual Result<void> submit(DeviceSlot& slot) = 0;
   /// Returns true if the device has finished the slot's work; does not wait.
   virtual Result<bool> ended(DeviceSlot& slot) = 0;
   virtual Result<void> await(DeviceSlot& slot) = 0;
-  /// Reads the results of a slot whose work has ended: fills one mesh for each planned job, and calls done(index of the
-  /// job), which returns false to cancel. Returns true if the device works in the slot again, to copy meshes that stay
-  /// on it: then wait for it again. Throws std::bad_alloc.
+  /// Reads the results of a slot whose work has ended. Fills one mesh for each planned job, and then calls done(index
+  /// of the job); if done returns false, the rest is cancelled. Returns true if the device has begun to copy meshes
+  /// that stay in its memory: the slot is then still in use, so wait for it again. Throws std::bad_alloc.
   virtual Result<bool> read(DeviceSlot& slot, std::span<const ChunkJob> jobs, std::span<ChunkMesh> meshes,
                             const std::function<bool(size_t)>& done) = 0;
 
@@ -100,10 +102,11 @@ class IdleSlots {
 using WarnOf = std::function<void(const std::string&)>;
 using OpenSession = std::function<Result<std::shared_ptr<DeviceSession>>()>;
 
-/// Creates a backend that meshes on a device, and on the given CPU backend if the device has no memory or is lost; the
-/// results are the same bytes. open: opens the device; called now and after each loss, by one thread at a time. If it
-/// fails after a loss, the CPU does all work. A device that is lost too often in a row is not opened again. warn:
-/// receives a message about each loss; may be null. Errors: those of open.
+/// Creates a backend that meshes on a device. The given CPU backend meshes the chunks for which the device has no
+/// memory, and the remaining chunks if the device is lost; its results are the same bytes. open: opens the device;
+/// called now and after each loss, by one thread at a time. If it fails after a loss, the CPU does all work. A device
+/// that is lost too often in a row is not opened again. warn: receives a message about each loss; may be null. Errors:
+/// those of open.
 Result<std::unique_ptr<Backend>> makeDeviceBackend(OpenSession open, std::unique_ptr<Backend> cpu,
                                                    std::pmr::memory_resource* memory, const Profiler& profiler,
                                                    WarnOf warn = nullptr);

@@ -16,7 +16,7 @@ namespace sgm {
 struct PartSize {
   uint32_t vertices = 0, indices = 0;
 };
-using PartSizes = std::array<PartSize, kMeshParts>;  ///< in the order of DeviceParts
+using PartSizes = std::array<PartSize, kMeshParts>;  ///< the sizes of a chunk's parts, in the order of DeviceParts
 
 /// The place where a part is to be written. Offsets are in bytes from the beginning of its block.
 struct PartPlace {
@@ -25,8 +25,8 @@ struct PartPlace {
   uint64_t vertices = 0, indices = 0;
 };
 
-/// Parts that have memory but no content yet. If the object is destroyed while `writing`, it is unknown when the
-/// writing ends: the memory is then not reused before the store is destroyed.
+/// Parts that have memory but no content yet. If the object is destroyed while `writing` is true, nobody knows when the
+/// writing ends. So the memory is not reused as long as the store exists.
 class Placement {
  public:
   Placement() = default;
@@ -34,28 +34,31 @@ class Placement {
   Placement(const Placement&) = delete;
   Placement& operator=(const Placement&) = delete;
 
-  std::vector<DeviceParts> chunks;  ///< the placed parts; all null for a chunk that got no memory
+  std::vector<DeviceParts> chunks;  ///< for each chunk, its placed parts; all parts of a chunk are null if there was no
+                                    ///< memory for it
   std::vector<PartPlace> parts;
   // The members below are set by the code that writes the content.
-  bool writing = false;                           ///< must be set before the first byte is written
-  std::vector<std::shared_ptr<const void>> held;  ///< objects that must exist until the writing ends
+  /// true while content is written; must be set before the first byte is written
+  bool writing = false;
+  std::vector<std::shared_ptr<const void>> held;  ///< objects that the writing of the content uses; they must exist
+                                                  ///< until this writing ends
 };
 
-/// Allocates memory of the drawing device for parts. Thread-safe. Its parts keep it alive.
+/// Allocates memory of the drawing device for parts. The parts keep the store alive. Thread-safe.
 class MeshStore {
  public:
   virtual ~MeshStore() = default;
   virtual const DeviceId& device() const = 0;
-  /// True if the drawing device is lost: then no memory is given out any more.
+  /// Returns true if the drawing device is lost. The store then allocates no more memory.
   virtual bool lost() const = 0;
   /// Allocates memory for parts. Throws std::bad_alloc.
   virtual std::unique_ptr<Placement> place(std::span<const PartSizes> chunks) = 0;
   /// Makes the content of placed parts readable for the drawing device. Call after all content was written, and after
-  /// waiting for the writes. If it fails, the parts of the placement are on no device. Errors: out_of_memory,
-  /// device_lost.
+  /// waiting for the writes. After an error, the content of the placement's parts is on no device. Errors:
+  /// out_of_memory, device_lost.
   virtual Result<void> publish(Placement& placement) noexcept = 0;
-  /// Same as Backend::upload(), on the drawing device. If that device is lost, the error is unsupported and not
-  /// device_lost, because the device that meshes is not lost.
+  /// Same as Backend::upload(), on the drawing device. If the drawing device is lost, the error is `unsupported`,
+  /// because `device_lost` would mean the device that meshes.
   virtual Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) = 0;
   /// Returns the size of the existing parts in bytes.
   virtual uint64_t bytes() = 0;

@@ -9,13 +9,13 @@
 
 namespace sgm {
 
-/// A body or a seam as a device returns it; it does not exist if it has no vertices.
+/// A body or a seam as a device returns it. A part without vertices does not exist in the chunk's mesh.
 struct MadePart {
   const Vertex* vertices = nullptr;
   const uint32_t* indices = nullptr;
   uint32_t vertex_count = 0, index_count = 0;
   ContentHash hash;
-  PartSums sums = {};  ///< for ChunkJob::sums_only; the other members are then empty
+  PartSums sums = {};  ///< set only for ChunkJob::sums_only; then the other members are empty
 };
 
 /// Fills the mesh of a chunk. signsOfRow(y + 33 z): returns the signs of the row's 33 samples, x from bit 0 on; called

@@ -58,7 +58,7 @@ Result<std::string> readOpenFile(int file, const std::string& name, uint64_t max
   const uint64_t reported = status.isRegular() ? status.bytes : 0;
   if (reported > max_bytes) return tooLarge(name, max_bytes);
   std::string content;
-  // Read one byte more than the reported size: if that byte does not exist, the file has ended, and no second read is
+  // Reads one byte more than the reported size. If this byte does not exist, the file has ended, and no second read is
   // needed.
   size_t next = std::max(static_cast<size_t>(reported) + 1, reported > 0 ? 0 : kPiece);
   for (;;) {

@@ -11,7 +11,7 @@ namespace sgm {
 
 enum class Readable {
   regular_files,
-  all_but_folders,  ///< regular files, and also pipes and devices, where reading blocks until data arrive
+  all_but_folders,  ///< pipes and devices in addition to regular files; reading these blocks until data arrive
 };
 
 /// Reads a whole file. Errors: io, with the path and the system's reason; limit if the file has more than `max_bytes`

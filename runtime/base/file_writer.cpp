@@ -235,7 +235,7 @@ Result<void> FileWriter::commit() {
 Result<void> FileWriter::commitReversibly() {
   if (Result<void> done = finish(); !done) return done;
   if (platform::exchangeFiles(temporary_, place_) == 0) {
-    undo_ = Undo::exchange;  // temporary_ now names the file that was replaced
+    undo_ = Undo::exchange;  // after the exchange, temporary_ is the name of the previous target file
     return {};
   }
   platform::FileStatus there;

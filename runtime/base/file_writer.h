@@ -23,7 +23,8 @@ class UnfinishedFiles {
 
  private:
   friend class FileWriter;
-  /// Registers a file name. Returns the number of its slot, or -1 if all slots are in use or the name is too long.
+  /// Registers the name of an unfinished file for removal by the signal handler. Returns the number of its slot, or -1
+  /// if all slots are in use or the name is too long.
   int announce(const std::string& name);
   void forget(int slot) { slots_[static_cast<size_t>(slot)].state = Slot::open; }
 
@@ -77,7 +78,7 @@ class FileWriter {
   void undo();
 
   uint64_t bytes() const { return bytes_; }  ///< number of bytes passed to write() so far
-  /// The path of the temporary file, so that another program can fill it; empty while the file has no name.
+  /// The path of the temporary file, for callers that let another program fill it. Empty while the file has no name.
   const std::string& name() const { return temporary_; }
 
  private:

@@ -105,7 +105,7 @@ class ThreadPool final : public JobSystem {
 };
 
 // The state of one parallelFor() loop, shared by the caller and the jobs that it has submitted. A job may start long
-// after parallelFor() has returned; it then finds no iterations left.
+// after parallelFor() has returned; such a job finds no iterations left.
 struct ForState {
   const std::function<void(size_t)>* body;
   size_t count;

@@ -56,7 +56,7 @@ class JsonParser {
     JsonValue value;
     skip();
     if (++values_ > max_values_) {
-      failed_ = true;  // without a message: run() itself makes the error `limit`
+      failed_ = true;  // sets no message: run() itself creates the error `limit`
     } else if (depth > kDeepest) {
       fail("values nested too deeply");
     } else if (at_ >= text_.size()) {

@@ -1,7 +1,7 @@
 #pragma once
 // Parses JSON from outside, such as the header of a GLB file. This is a small parser of our own, so that the core
-// library depends on no JSON library. It is strict (RFC 8259), limits the nesting depth, and takes linear time and
-// memory.
+// library depends on no JSON library. The parser is strict (RFC 8259), limits the nesting depth, and takes linear time
+// and memory.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@ class JsonValue {
   Kind kind = Kind::null;
   double number = 0;  ///< value of a number; for a boolean, 0 or 1
   std::string text;
-  std::vector<JsonValue> items;    ///< elements of an array, or values of an object
+  std::vector<JsonValue> items;    ///< elements of an array; for an object, the values of its members
   std::vector<std::string> names;  ///< names of an object's members, parallel to `items`
 
   /// Returns the value of the named member of an object; null if it is missing. If several members have the name,

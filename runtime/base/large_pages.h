@@ -15,10 +15,10 @@ namespace sgm {
 
 inline constexpr size_t kLargePage = size_t{1} << 21;
 
-/// An allocator that takes its memory from a memory resource, which must outlive it, and requests pages of 2 MB: page
-/// faults of small pages take longer than most of the work on the data, and ten times as long on a virtual machine. If
-/// the system has no large pages, it behaves as std::pmr::polymorphic_allocator, except that moving a container moves
-/// its memory resource, too.
+/// An allocator that requests pages of 2 MB: page faults of small pages take longer than most of the work on the data,
+/// and ten times as long on a virtual machine. It takes its memory from a memory resource, which must outlive the
+/// allocator. If the system has no large pages, it behaves as std::pmr::polymorphic_allocator, except that moving a
+/// container moves its memory resource, too.
 template <class T>
 class LargePages {
  public:

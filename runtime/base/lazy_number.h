@@ -6,8 +6,8 @@
 
 namespace sgm {
 
-/// Caches a number when it is first requested. A copy of the object begins without the cached number. Thread-safe:
-/// several threads may compute the number concurrently, and must get the same result.
+/// Computes a number at the first request and keeps it for later requests. A copy of the object begins without the
+/// number. Thread-safe: several threads may compute the number concurrently, and must get the same result.
 class LazyNumber {
  public:
   LazyNumber() = default;

@@ -119,7 +119,7 @@ constexpr std::array<double, 9> kAtanEighthsLow{0,
 constexpr std::array<double, 7> kAtanTerms{-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
 
 /// Computes atan(numerator / denominator). Requires 0 <= numerator <= denominator and denominator > 0. Quotients below
-/// 3/32 use the series alone, since a tabulated value plus the series would cancel.
+/// 3/32 use the series alone: the sum of a tabulated value and the series would lose digits by cancellation.
 double atanUnit(double numerator, double denominator) {
   const double quotient = numerator / denominator;
   const int index = static_cast<int>(quotient * 8.0 + 0.5);

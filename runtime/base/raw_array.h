@@ -1,5 +1,6 @@
 #pragma once
-// Arrays without initialization, filled once: the arrays of mesh handles, and large scratch memory.
+// Arrays whose elements are allocated without initialization and written once. Used for the arrays of mesh handles, and
+// for large scratch memory.
 
 #include <algorithm>
 #include <cstddef>

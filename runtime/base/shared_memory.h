@@ -13,8 +13,8 @@ namespace sgm {
 /// Identifies a GPU; the same value in every API (VkPhysicalDeviceIDProperties::deviceUUID, cuDeviceGetUuid).
 using DeviceId = std::array<uint8_t, 16>;
 
-/// One memory allocation of the rendering device (Vulkan), which the other API (CUDA) imports as a whole. It lives as
-/// long as any object in its memory.
+/// One memory allocation of the rendering device (Vulkan), which the other API (CUDA) imports as a whole. The block
+/// exists as long as any object in its memory.
 class SharedBlock {
  public:
   SharedBlock() = default;

@@ -106,7 +106,8 @@ ChunkPartInputs::ChunkPartInputs(const WorldField& world, const ChunkRequest& re
   const ChunkGrid grid = *chunkGrid(world, request.key);
   const auto around = [&](int level) { return world.brushes(sampledBox(grid, level, request.sharp), level, edits); };
   brushes_ = around(grid.level);
-  // The field beyond the meshed world has no brushes, so the seams of an outermost chunk depend on none.
+  // Beyond the meshed world there are no brushes, so the seams of an outermost chunk depend on no brushes of the
+  // coarser level.
   if (request.seams != 0 && !request.outermost) coarser_ = around(grid.level + 1);
 }
 
@@ -119,7 +120,7 @@ std::vector<std::byte> ChunkPartInputs::bytes(int part) const {
   out.put(request_.key.level);
   for (int axis = 0; axis < 3; ++axis) out.put(request_.key.at[axis]);
   out.put(part);
-  // The key does not include ChunkRequest::coarser, which only affects the keys of vertices, and these are not stored.
+  // ChunkRequest::coarser is left out: it affects only the keys of vertices, and these keys are not stored.
   for (const bool asked :
        {body && request_.signs, body && request_.anchors, !body && request_.outermost, request_.sharp}) {
     out.put(static_cast<uint8_t>(asked));

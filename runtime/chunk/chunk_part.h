@@ -19,8 +19,8 @@
 
 namespace sgm {
 
-/// The version of all code between a grammar's meaning and a chunk's vertices, indices, anchors and voids. Raise it
-/// with every change of the library that changes one of these, including seams; changed golden hashes indicate such a
+/// The version of the code that turns a grammar's meaning into a chunk's vertices, indices, anchors and voids. Raise it
+/// with every change of the library that changes any of these, also in seams; changed golden hashes indicate such a
 /// change.
 inline constexpr uint32_t kMeshingVersion = 10;
 
@@ -47,10 +47,12 @@ class ChunkPartInputs {
   /// Returns the inputs of a part as bytes, for DiskCache::keyOf. Equal bytes mean equal parts.
   std::vector<std::byte> bytes(int part) const;
 
-  /// True if a baked part can serve the request: no brush is visible there; a seam leads to chunks of the next level,
-  /// not to virtual neighbours; and no anchors or voids are requested for the body of a level above 0.
+  /// True if a baked part can serve the request. Conditions: no brush is visible in the part; if it is a seam, it leads
+  /// to chunks of the next level, not to virtual neighbours; if it is the body of a level above 0, neither anchors nor
+  /// voids are requested.
   bool isAsBaked(int part) const;
-  /// Returns the inputs of the corresponding baked part, which contains everything that any streamed world may request.
+  /// Returns the inputs of the corresponding part as `sgm bake` stores it. A baked part serves every streamed world: at
+  /// level 0 it also contains the anchors and the voids, which only some worlds request.
   ChunkPartInputs asBaked() const;
 
   const ChunkRequest& request() const { return request_; }
@@ -84,7 +86,8 @@ struct ChunkPart {
   explicit ChunkPart(std::pmr::memory_resource* memory) : mesh(memory), voids(memory) {}
 };
 
-/// The parts of a chunk that were found in the cache, by part number, and the inputs that they depend on.
+/// The parts of a chunk that were found in the cache, indexed by part number, and the inputs on which these parts
+/// depend.
 struct FoundParts {
   std::array<std::optional<ChunkPart>, kChunkParts> parts;
   ChunkPartInputs inputs;

@@ -11,11 +11,12 @@ namespace sgm {
 
 namespace {
 
-// The number of chunks in a batch. Threads wait for each other at the end of a batch, because chunks take different
-// times. The batch is large enough that this wait matters little, and small enough that its programs take little
-// memory. A device may require larger batches.
+// The number of chunks in a batch. At the end of a batch, threads that have finished wait for the others, because
+// chunks take different times. A batch is so large that this wait matters little, and so small that its field programs
+// take little memory. A device may require larger batches.
 constexpr size_t kBatchChunks = 256;
-// The maximum number of successive chunks that one thread prepares, since successive chunks mostly use the same cells.
+// The maximum number of successive chunks that one thread prepares together. Successive chunks mostly use the same
+// cells, which the thread then derives only once.
 constexpr size_t kPreparedTogether = 16;
 // The maximum number of cells that a thread keeps in memory between chunks, in addition to the cells in the cache.
 constexpr size_t kMaxCachedCells = 1024;
@@ -63,7 +64,8 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, const
   return {};
 }
 
-/// The programs that sharpen a chunk after the backend has consumed the chunk's job; null if the chunk is not sharp.
+/// The field programs of a chunk at its own level and at the next coarser level. Sharpening needs them after the
+/// backend has consumed the chunk's job. Null if the chunk is not sharpened.
 struct SampledPrograms {
   std::shared_ptr<const FieldProgram> field, coarse;
 };
@@ -168,8 +170,8 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     });
     if (error) return *error;
     const Programs programs = programsOf(batch, chunk_jobs);
-    // If any chunk of the batch must be sharpened, all chunks of the batch are counted after sharpening, not after
-    // meshing.
+    // If any chunk of the batch must be sharpened, progress counts all chunks of the batch after sharpening instead of
+    // after meshing.
     const bool sharp =
         std::any_of(batch.begin(), batch.end(), [](const ChunkRequest& request) { return request.sharp; });
 

@@ -1,5 +1,6 @@
 #pragma once
-// Meshes many chunks of a world: jobs on the CPU derive and compile them, the backend meshes them.
+// Meshes many chunks of a world. Jobs on the CPU derive the cells around each chunk and compile its field programs; the
+// backend meshes the chunks.
 
 #include <functional>
 #include <span>
@@ -28,7 +29,7 @@ struct ChunkRequest {
   /// true: the chunk lies at the border of the meshed world, so its seams lead to virtual neighbours (octree.h); these
   /// are entirely solid if the domain is solid, and void otherwise
   bool outermost = false;
-  bool sharp = false;  ///< true: sharpen features (sharpen_chunk.h)
+  bool sharp = false;  ///< true: sharpen the edges and corners of the mesh (sharpen_chunk.h)
   /// true: compute only the sums over the mesh, without the mesh (ChunkJob::sums_only); not possible for sharp chunks
   bool sums_only = false;
 

@@ -81,8 +81,8 @@ struct Made {
   uint16_t material(size_t i) const { return static_cast<uint16_t>(labels[i] & 0xFFFFu); }
 };
 
-/// The number of places at which the solid behind a place in the air is searched. In order: half a cell and one cell
-/// against the vertex's normal, then the corners of the vertex's cell, at least one of which is solid.
+/// If a place is in the air, the solid behind it is searched at kPlacesBehind points, in this order: half a cell and
+/// one cell against the vertex's normal, then the corners of the vertex's cell, at least one of which is solid.
 constexpr size_t kStepsBehind = 2, kPlacesBehind = kStepsBehind + 8;
 
 std::array<Int3, kPlacesBehind> placesBehind(const Int3& place, const Int3& vertex, const TexturePoint& normal,
@@ -135,9 +135,9 @@ Result<void> materialsAround(const WorldField& field, int level, const EditSnaps
   EvalScratch scratch(field.memory());
   const Made around((*program)->view(), places, scratch, field.memory());
 
-  // The mesh's surface only approximates the field's, so a place can lie in the air where no shape defines a material.
-  // Such a place gets the material of the solid behind it. This is needless if the grammar has only the default
-  // material.
+  // The surface of the mesh only approximates the surface of the field. So a place can lie in the air, where no shape
+  // defines a material; it then gets the material of the solid behind it. If the grammar has only the default material,
+  // all this is skipped.
   const bool named = field.settings().program->materials.size() > 1;
   PointList behind(field.memory());
   std::pmr::vector<size_t> in_air(field.memory());

@@ -15,8 +15,8 @@ namespace sgm {
 /// The default and the largest edge of a texture's tile, in units. Texture coordinates increase by 1 per tile.
 inline constexpr int32_t kTile = kUnitsPerMetre, kLargestTile = 1 << 20;
 
-/// Finds the shapes at points of the surface, and numbers them in the order of discovery. Refers to the field and the
-/// edits, which must outlive it. Not thread-safe.
+/// Finds the shapes at points of the surface, and numbers them in the order of discovery. The field and the edits must
+/// outlive this object. Not thread-safe.
 class SurfaceShapes {
  public:
   /// base: the point, in units, where texture coordinates along the world's axes are 0. tile: edge of a tile, in units.

@@ -15,8 +15,8 @@
 namespace sgm {
 namespace {
 
-/// maximum number of parts of one statement whose surroundings are sampled; further parts count as thin if any of these
-/// did
+/// maximum number of parts of one statement whose surroundings are sampled; if one of these parts stands free, all
+/// further parts count as thin
 constexpr size_t kMaxLooks = 32;
 /// number of cells of a layer that are always traced; later cells are traced only if they have thin shapes of a new
 /// kind
@@ -27,8 +27,8 @@ class Surroundings {
  public:
   Surroundings(const WorldField& world, int level) : world_(world), level_(level), cell_(world.cellAt(level)) {}
 
-  /// Whether the part stands free: along more than half of its extent, no thicker solid (for a cut part: void) lies
-  /// directly beside it.
+  /// Whether the part stands free: along more than half of its extent, there is no thicker solid (for a part that is
+  /// cut away: no thicker void) directly beside it.
   Result<bool> standsAlone(const Slab& slab, bool cut) {
     // Choose sample places from end to end along the axes that are not thin.
     std::vector<Vector3> places{{}};
@@ -117,8 +117,8 @@ ThinKind lookOf(const GrammarChunk& chunk, const ThinShape& thin) {
   return {s.kind, thin.slab.thickness(), thin.cut, s.material, s.tag, s.detail, s.coarsest};
 }
 
-/// Counts the thin parts of a world separately for each statement: a slab on the ground must not hide a pole of another
-/// statement beside it.
+/// Counts the thin parts of each statement separately. So parts of one statement that do not stand free (a slab on the
+/// ground) do not hide the parts of another statement (a pole beside it).
 class PartCounter {
  public:
   PartCounter(const WorldField& world, const IntBox& box, int level)
@@ -157,17 +157,17 @@ class PartCounter {
   }
 
  private:
-  /// identifies a statement: rule, cut, file and position in the file
+  /// identifies a statement: its rule, whether it cuts, its file, and its position in the file
   using Place = std::tuple<std::string, bool, uint32_t, uint32_t>;
   /// identifies a use of a rule: layer, cell, index of the activation
   using Use = std::tuple<uint32_t, Int3, uint32_t>;
   struct Found {
     int32_t thickness = INT32_MAX;
-    std::set<Use> uses;   ///< uses of the rule with a thin part, in traced cells
+    std::set<Use> uses;   ///< uses of the rule that have a thin part of this statement, in traced cells
     size_t untraced = 0;  ///< number of thin shapes in cells that were not traced
     size_t looked = 0, alone = 0;
     std::set<Use> seen;          ///< all uses with a thin shape of this statement, in traced cells
-    bool one_shape_each = true;  ///< true while every use in `seen` has one thin shape of this statement
+    bool one_shape_each = true;  ///< true as long as every use in `seen` has exactly one thin shape of this statement
   };
 
   Result<void> countCell(uint32_t layer, Int3 at) {
@@ -219,8 +219,8 @@ class PartCounter {
     return {};
   }
 
-  /// Whether a part counts as thin: it stands free, or (without sampling it) other parts of the same statement stood
-  /// free.
+  /// Whether a part counts as thin. Samples the surroundings of the first kMaxLooks parts of a statement: such a part
+  /// counts if it stands free. Further parts count, without sampling, if any of the first parts stood free.
   Result<bool> countsAs(Found& found, const ThinShape& thin) {
     if (found.looked < kMaxLooks) {
       const Result<bool> alone = surroundings_.standsAlone(thin.slab, thin.cut);
@@ -241,9 +241,10 @@ class PartCounter {
   Surroundings surroundings_;
   std::set<std::pair<uint32_t, uint32_t>> walls_;
   std::map<Place, Found> found_;
-  /// statement of each kind of thin shape in the layer's traced cells; nullopt for treemap walls
+  /// for each kind of thin shape in the layer's traced cells: the statement that makes this kind; nullopt for treemap
+  /// walls
   std::map<ThinKind, std::optional<Place>> known_;
-  std::set<ThinKind> several_;  ///< kinds of thin shapes that several statements share
+  std::set<ThinKind> several_;  ///< kinds of thin shapes that are made by several statements
   size_t traced_ = 0;           ///< number of traced cells of the layer
 };
 

@@ -8,13 +8,14 @@
 
 namespace sgm {
 
-/// The thin parts that the statements of one rule make.
+/// All parts thinner than a cell that the statements of one rule make.
 struct ThinPart {
   std::string rule;       ///< name of the rule as in its call, such as "Pane" or "cave.Column"
   bool cut = false;       ///< true: the thin part is cut away; false: it is added
   int32_t thickness = 0;  ///< thickness of the thinnest of these parts, in units
-  size_t uses = 0;        ///< number of uses of the rule that have such a thin part
-  /// true: `uses` is an estimate, since some uses were counted by their shapes, and a use may have several shapes
+  size_t uses = 0;        ///< number of derived uses of the rule that have such a thin part
+  /// true: `uses` is only an estimate: for some cells it is the number of thin shapes, and one use of the rule may have
+  /// several
   bool is_about = false;
 };
 

@@ -7,7 +7,7 @@ namespace sgm {
 
 namespace {
 
-/// Searches the thin shapes of one cell.
+/// Finds the thin shapes of one cell.
 class Search {
  public:
   Search(const GrammarChunk& chunk, int32_t cell_edge) : chunk_(chunk), cell_edge_(cell_edge) {}
@@ -30,7 +30,7 @@ class Search {
     return isSweep(s) ? slabOfSweep(chunk_, s, cell_edge_) : slabOfShape(chunk_, s);
   }
 
-  /// Returns the thickness of the thickest shape below a node, in units; 0 if the node is invisible.
+  /// Returns the thickness, in units, of the thickest shape in the subtree of a node; 0 if the node is invisible.
   double thickness(uint32_t index, uint32_t* thickest = nullptr) const {
     const Shape& s = chunk_.shapes[index];
     if (!shows(s)) return 0;
@@ -38,7 +38,7 @@ class Search {
       if (thickest != nullptr) *thickest = index;
       return slab->thickness();
     }
-    if (s.child_count == 0) return 1e30;  // half-spaces and voxels have no thickness
+    if (s.child_count == 0) return 1e30;  // half-spaces and voxels count as infinitely thick
     double most = 0;
     const bool first_alone = s.kind == ShapeKind::subtract || s.kind == ShapeKind::subtract_smooth;
     for (uint32_t i = 0; i < (first_alone ? 1 : s.child_count); ++i) {

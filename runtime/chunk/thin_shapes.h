@@ -13,9 +13,8 @@ struct ThinShape {
   bool cut = false;  ///< true: the shape is cut away; false: it is added
 };
 
-/// Finds the shapes that are visible at a level whose cells have this edge, in units, and that are thinner than such a
-/// cell. In an intersection, a sum or a morph, only the operand that determines the thickness is considered
-/// (thinParts).
+/// Finds the visible shapes that are thinner than a cell, at the level whose cells have this edge (units). In an
+/// intersection, a sum or a morph, only the operand that determines the thickness is considered (see thinParts).
 std::vector<ThinShape> findThinShapes(const GrammarChunk& chunk, int32_t cell_edge);
 
 }  // namespace sgm

@@ -28,7 +28,7 @@ struct WideBox {
 
 double wide(float v) { return static_cast<double>(v); }
 
-/// Returns a margin in units for the float rounding errors of the field, for lengths of up to `size` units.
+/// Returns a margin in units that covers the float rounding errors of the field, for lengths of up to `size` units.
 double slack(double size) { return 1.0 + 1e-6 * std::fabs(size); }
 
 /// Returns the axis-aligned world box around a box in the frame's local coordinates. centre, half: centre and half
@@ -166,7 +166,7 @@ WideBox Walker::leaf(const Shape& s, double a) const {
   const auto size = [&](size_t i) { return wide(s.size[i]); };
   switch (s.kind) {
     case ShapeKind::sphere: {
-      // A sphere is the same under any rotation, so its box ignores the rotation of its frame, and is exact.
+      // A sphere looks the same under any rotation. So an unrotated frame is used, for which the box is exact.
       Frame upright;
       upright.origin = s.frame.origin;
       return placed(upright, size(0) + a, size(0) + a, size(0) + a);
@@ -212,8 +212,8 @@ WideBox Walker::leaf(const Shape& s, double a) const {
       return box;
     }
     case ShapeKind::morph_power: {
-      // The radii are linear in the morph parameter t, so they are bounded by their values at both ends of t's range.
-      // Shape::size contains the radii at t = 0 and t = 1, which may be far larger than those that t reaches.
+      // The radii are linear in the morph parameter t, so their values at the two ends of t's range bound them.
+      // Shape::size contains the radii at t = 0 and t = 1, which may be far larger than the radii within t's range.
       const Range along = range(s.expr);
       std::array<double, 3> most{};
       double least = kInfinity;

@@ -28,8 +28,8 @@ struct Entry {
   }
 };
 
-/// Hashes shapes, expressions and anchors. A reference is hashed as the content that it refers to, not as an index.
-/// Order for a shape: its own numbers, then its points, voxels, expressions and children.
+/// Hashes shapes, expressions and anchors. A reference contributes the hash of the content that it refers to, not an
+/// index. A shape contributes its own numbers first, then its points, voxels, expressions and children.
 class Signer {
  public:
   explicit Signer(const CellContent& cell) : program_(cell.program), chunk_(*cell.chunk), exprs_(chunk_.exprs.size()) {
@@ -119,7 +119,7 @@ class Signer {
       text(signer_.program_.materials[material]);
       text(signer_.program_.tags[tag]);
     }
-    void children(uint32_t, uint32_t) {}  // sign() adds the children's hashes
+    void children(uint32_t, uint32_t) {}  // does nothing: sign() adds the children's hashes
     void points(uint32_t first, uint32_t count) { first_point_ = first, point_count_ = count; }
     void expr(uint32_t root) { expr_ = root; }
     void block(uint32_t block) { block_ = block; }

@@ -38,12 +38,13 @@ class PlaceHasher {
 void translate(GrammarChunk& chunk, Int3 offset) {
   const auto move = [&](Int3& p) { p = saturatingAdd(p, offset); };
   for (Shape& s : chunk.shapes) {
-    // Combiners have no position of their own, only their children have.
+    // Shapes that combine other shapes have no position of their own. Their children have positions, and are moved by
+    // themselves.
     if (s.kind < ShapeKind::unite || s.kind == ShapeKind::morph_power || s.kind == ShapeKind::voxels) {
       move(s.frame.origin);
     }
-    // A prism's points are in local coordinates and do not move. A sweep's points are in world coordinates, both here
-    // and in expressions.
+    // The points of a prism are relative to its frame, so they do not move. The points of a sweep are world
+    // coordinates, in shapes as well as in expressions, so they move.
     for (uint32_t i = 0; s.kind != ShapeKind::prism && i < s.point_count; ++i) move(chunk.points[s.first_point + i]);
   }
   for (VoxelBlock& b : chunk.blocks) move(b.anchor);

@@ -23,8 +23,8 @@ std::vector<bool> hideShapes(GrammarChunk& chunk, int32_t cell_edge, const std::
 /// voxels; the maximum of int32 if it is visible at every level.
 int32_t coarsestOf(const GrammarChunk& chunk, const Shape& s);
 
-/// Whether a level of detail can omit the operand with this index from a shape of kind `of` without omitting the whole
-/// shape.
+/// Whether the operand with this index of a shape of kind `of` can be omitted at a level of detail, while the rest of
+/// the shape stays.
 bool isFreePart(ShapeKind of, uint32_t operand);
 
 }  // namespace sgm

@@ -163,7 +163,8 @@ uint32_t Draft::triple(const std::array<Num, 3>& n) {
   const uint32_t first = static_cast<uint32_t>(chunk_.exprs.size());
   for (uint32_t node : source) {
     Expr e;
-    e.op = ExprOp::maximum;  // max(x, x) = x, so the new expression has the same value as the operand
+    // Copy the expression, so that the three copies are consecutive: max(x, x) has the same value as x.
+    e.op = ExprOp::maximum;
     e.a = e.b = node;
     chunk_.exprs.push_back(e);
   }

@@ -14,7 +14,7 @@ struct Range {
 };
 
 /// Returns the range of every expression of a chunk over `box` (null: over all positions), widened to include the
-/// rounding of the field's float arithmetic. Noise has the range -1..1, a sweep 0..1.
+/// rounding of the field's float arithmetic. A noise has the range -1..1, a coordinate along a sweep 0..1.
 std::vector<Range> exprRanges(std::span<const Expr> exprs, const IntBox* box = nullptr);
 
 /// Returns a box that contains all positions to which a warp moves the points of `box`, saturated to int32. offset:

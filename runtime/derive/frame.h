@@ -51,8 +51,8 @@ struct Placement {
   Placement scaled(double factor) const;
   Placement mirrored(int axis) const;
 
-  /// Returns the frame of a shape centred at `local`. The centre is rounded to units, and the rows, which are computed
-  /// in double precision, to float.
+  /// Returns the frame of a shape centred at `local`. The centre is rounded to units. The rows of the frame's matrix
+  /// are computed in double precision and rounded to float.
   Frame frame(Vec3 local = {}) const;
 };
 

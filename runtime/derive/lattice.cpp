@@ -58,8 +58,8 @@ bool inSpanningTree(const Lattice& lattice, PathKey node, int axis, int corner) 
   return false;
 }
 
-/// True if the hash of `key` and `draw` selects this face. The candidates are the faces in one plane of an octree node:
-/// 2^levels along each axis of the plane that is divided into cells.
+/// True if the hash of `key` and `draw` selects this face from the candidates. These are the faces in one plane of an
+/// octree node: 2^levels faces along each axis of the plane on which the layer is divided into cells.
 bool isChosen(const Lattice& lattice, PathKey key, uint64_t draw, FaceId face, int levels) {
   const uint64_t bits = hashCombine(key.value, draw);
   const uint64_t mask = (uint64_t{1} << levels) - 1;

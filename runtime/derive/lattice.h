@@ -32,14 +32,14 @@ struct Lattice {
   PathKey cellKey(Int3 cell) const;
   PathKey faceKey(FaceId face) const;
 
-  /// Returns the low corner of `cell` relative to the low corner of `home`, in units. The cells may be up to a few
-  /// thousand cells apart.
+  /// Returns the low corner of the cell `cell` relative to the low corner of the cell `home`, in units. The distance
+  /// between them may be up to a few thousand cells.
   Int3 lowFrom(Int3 home, Int3 cell) const;
-  /// Returns a random point of the cell relative to the low corner of `home`, in units. jitter 0: the centre; 1:
-  /// anywhere in the cell.
+  /// Returns a random point of a cell, relative to the low corner of the cell `home`, in units. jitter 0: the centre of
+  /// the cell; 1: anywhere in the cell.
   Int3 point(Int3 home, Int3 cell, double jitter) const;
-  /// Returns a random point of the face relative to the low corner of `home`, in units; its coordinate along the face's
-  /// axis lies in the face.
+  /// Returns a random point of the face (exactly in the face's plane), relative to the low corner of the cell `home`,
+  /// in units.
   Int3 facePoint(Int3 home, FaceId face, double jitter) const;
 
   /// Returns the faces that the cell owns: one along each axis that is divided into cells.

@@ -62,13 +62,14 @@ enum class ShapeKind : uint8_t {
   voxels,
 };
 
-inline constexpr float kSumSupport = 1.6f;  ///< radius of the sum's kernel support, as a multiple of the inner radius
-inline constexpr float kMaxPower = 20.0f;   ///< exponent of the superquadric at squareness 1
+/// radius within which a leaf's kernel in a sum is not 0, as a multiple of the leaf's inner radius
+inline constexpr float kSumSupport = 1.6f;
+inline constexpr float kMaxPower = 20.0f;  ///< exponent of a superquadric with the maximum squareness, 1
 
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;
-  /// index into the grammar's materials; 0: a cut keeps the material of the solid that it cuts, another shape gets the
-  /// default
+  /// index into the grammar's materials; 0: none, so that a cut surface keeps the material of the solid, and other
+  /// shapes have the default material
   uint16_t material = 0;
   uint16_t tag = 0;                           ///< index into the grammar's tags; 0: none
   uint32_t first_child = 0, child_count = 0;  ///< range of the children in GrammarChunk::children
@@ -76,14 +77,15 @@ struct Shape {
   /// Range in GrammarChunk::points. A prism: its corners. A sweep (one shape, or the union of its pieces): the polyline
   /// that it follows, used only for texture coordinates.
   uint32_t first_point = 0, point_count = 0;
-  uint32_t block = kNone;  ///< index in GrammarChunk::blocks of a shape of kind `voxels`
+  uint32_t block = kNone;  ///< for a shape of kind `voxels`: index in GrammarChunk::blocks
   /// the shape is dropped at levels whose cell edge is larger than this, in units; 0: it has no such limit
   int32_t detail = 0;
   /// the shape is dropped at levels whose cell edge is smaller than this, in units (set by `lod`); 0: it has no such
   /// limit
   int32_t coarsest = 0;
-  float amount = 0;        ///< radius of a smooth combiner in units, or t of a morph with constant t
-  float inner_radius = 0;  ///< inner radius in units; used only for leaves in a sum
+  float amount = 0;  ///< radius of a smooth combiner in units, or t of a morph with constant t
+  /// about the radius of the largest ball inside the leaf, in units; used only for leaves in a sum
+  float inner_radius = 0;
   /// sizes, described at ShapeKind; for the union of a sweep's pieces: the sweep's radius, units
   std::array<float, 6> size{};
   Frame frame;
@@ -150,8 +152,8 @@ struct VoxelBlock {
   size_t words() const { return (size() + 63) / 64; }
 };
 
-/// The number of voxels that a block contains beyond its cell on every side: enough to determine the field wherever the
-/// shape is evaluated, at every level (see field/voxels.h).
+/// The number of voxels that a block contains beyond its cell on every side. With so many, the block determines the
+/// field wherever the shape is evaluated, at every level (see field/voxels.h).
 inline constexpr int32_t kVoxelMargin = 12;
 
 /// A top-level shape. Each group adds to the field by a hard min, or cuts from it by a hard max.
@@ -159,7 +161,7 @@ struct Group {
   uint32_t root = 0;  ///< index of the top-level shape in GrammarChunk::shapes
   bool cut = false;
   IntBox bounds;  ///< contains every point where the root shape's field is <= 0, at every level
-  PathKey key;    ///< sorts the groups of a layer, so that their order does not depend on the order of derivation
+  PathKey key;    ///< sort key of the groups of a layer, so that their order does not depend on the order of derivation
 };
 
 /// An oriented point for gameplay, emitted only by the cell that contains it.

@@ -51,8 +51,8 @@ std::vector<LineFrame> framesAlong(std::span<const Int3> corners, Vec3 up) {
     if (i == 0) {
       next.normal = across(next.tangent, up);
     } else {
-      // For vectors perpendicular to the old tangent, the least rotation between the tangents is the reflection in the
-      // plane perpendicular to their sum.
+      // The normal is turned by the smallest rotation from the old tangent to the new one. For a vector perpendicular
+      // to the old tangent, this rotation equals the reflection in the plane perpendicular to the sum of both tangents.
       const LineFrame& last = frames.back();
       const Vec3 sum = last.tangent + next.tangent;
       const double square = dot(sum, sum);
@@ -79,7 +79,7 @@ std::vector<BeamPiece> beamAlong(const std::vector<Int3>& corners, double r, Vec
         piece.frame.rows[3 * row + static_cast<size_t>(axis)] = static_cast<float>(rows[row][axis] + 0.0);
       }
     }
-    // One unit compensates for the rounding of the centre.
+    // The box is one unit larger, to compensate for the rounding of its centre.
     const float half = static_cast<float>(r + 1.0);
     piece.half = {half, half, static_cast<float>(0.5 * size + r + 1.0)};
     pieces.push_back(piece);

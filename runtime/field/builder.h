@@ -31,8 +31,8 @@ class ProgramBuilder {
   Value torus(const Frame& frame, float ring, float tube, uint32_t label);
   Value ellipsoid(const Frame& frame, float x, float y, float z, uint32_t label);
   Value superquadric(const Frame& frame, float x, float y, float z, float exponent, uint32_t label);
-  /// A superquadric whose radii change from size[0..2] at t = 0 to size[3..5] at t = 1, and its shape from an ellipsoid
-  /// to a box.
+  /// A superquadric that changes with t. At t = 0, it is an ellipsoid with the radii size[0..2]; at t = 1, nearly a box
+  /// with the half edges size[3..5]. t is clamped to 0..1.
   Value powerMorph(const Frame& frame, std::span<const float, 6> size, Value t, uint32_t label);
   Value halfspace(const Frame& frame, uint32_t label);
   /// A prism. corners: x and z of the corners of its base, at least three, in local units, counter-clockwise seen from
@@ -43,8 +43,8 @@ class ProgramBuilder {
   /// least this magnitude becomes the far value (1e18) of its sign.
   Value lattice(const SampleLattice& at, std::span<const float> samples, float limit, uint32_t label);
 
-  /// blobWeight() returns an operand of a kernel sum for a ball, which is cheap to evaluate; kernelWeight() returns one
-  /// for any shape, given its distance and its inner radius. Radii are in units and above 0.
+  /// Both functions return an operand of a kernel sum: blobWeight() for a ball, which is cheap to evaluate;
+  /// kernelWeight() for any shape, given its distance and its inner radius. Radii are in units and above 0.
   Value blobWeight(Int3 centre, float radius, uint32_t label);
   Value kernelWeight(Value distance, float inner_radius);
 
@@ -68,9 +68,9 @@ class ProgramBuilder {
   void pushWarp(Value x, Value y, Value z) { ops_.pushWarp(x, y, z); }
   void popWarp() { ops_.popWarp(); }
 
-  /// Ends the group. Groups must be emitted in order of layer, and within a layer those that add before those that cut;
-  /// a smooth group must be the only one of its layer. smooth: width of the blend in units, at most 2^20; 0: none.
-  /// Error: limit if the group needs more registers or places than exist.
+  /// Ends the group. Groups must be emitted in the order of their layers; within a layer, first the groups that add,
+  /// then the groups that cut. A smooth group must be the only one of its layer. smooth: width of the blend in units,
+  /// at most 2^20; 0: none. Error: limit if the group needs more registers or places than exist.
   Result<void> group(Value root, const IntBox& influence, uint32_t layer, bool cut, float smooth = 0);
 
   FieldProgram finish() { return std::move(program_); }
@@ -100,8 +100,8 @@ class RoundUnion {
   Value sum_, nearest_;
 };
 
-/// Accumulates a sum with a compact kernel over any number of operands, in two values, with the same rules as
-/// RoundUnion.
+/// Accumulates a sum with a compact kernel over any number of operands, in two values. The same rules as for RoundUnion
+/// apply.
 class KernelSum {
  public:
   explicit KernelSum(ProgramBuilder& builder);

@@ -25,8 +25,8 @@ struct Gathered {
 Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntBox& box, const FieldSettings& settings,
                                   std::pmr::memory_resource* memory, std::span<const HostField> hosts,
                                   std::span<const Brush> brushes) {
-  // Growing arrays allocate from this buffer: each request to `memory` updates a shared counter, for which threads
-  // contend.
+  // Growing arrays allocate from this buffer instead of `memory`: each request to `memory` updates a shared counter,
+  // for which threads contend.
   std::array<std::byte, 8192> room;
   std::pmr::monotonic_buffer_resource scratch(room.data(), room.size(), memory);
   // The scratch buffer never frees memory that an array has outgrown. The samples of host fields can be large, so if

@@ -25,8 +25,8 @@ struct FieldSettings {
   int32_t cell = kUnitsPerMetre / 2;
   bool solid = false;  ///< true if the domain is solid where no shape is
   uint32_t label = 0;  ///< label (material and tag) of the domain's solid
-  /// if set, labels are numbers of shapes in this table; the labels of the domain, of host fields and of brushes are
-  /// then kNoShape
+  /// if set, labels are numbers of shapes in this table; the domain, host fields and brushes then have the label
+  /// kNoShape
   ShapeLabels* shapes = nullptr;
 };
 

@@ -7,13 +7,13 @@
 
 namespace sgm {
 
-/// The maximum width of a density edge, in finest cells: quantised samples have a limited range.
+/// The maximum width of a density edge, in finest cells. It is limited since quantised samples have a limited range.
 inline constexpr int32_t kMaxEdgeCells = 4096;
 
 /// The width of the zone (edge) over which the density rises from 0 to 1, in the scale of the quantised samples.
 struct DensityEdge {
-  double steps = 0;   ///< width of the edge in 1024ths of a finest cell
-  float inverse = 0;  ///< 1 / width, an argument of densityOf()
+  double steps = 0;   ///< width of the zone in 1024ths of a finest cell
+  float inverse = 0;  ///< 1 / steps, an argument of densityOf()
 };
 
 /// Converts the width of an edge in units, 1 to kMaxEdgeCells * finest_cell.

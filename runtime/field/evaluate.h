@@ -11,7 +11,7 @@
 
 namespace sgm {
 
-/// number of points that an evaluator processes together; their registers fit in the processor's cache
+/// number of points that an evaluator processes together; so few that their registers fit in the processor's cache
 inline constexpr size_t kEvalBlock = 256;
 
 /// Scratch memory of one thread. It can be reused, and grows to the size of the largest program.
@@ -44,8 +44,8 @@ struct LatticeBox {
   std::array<size_t, 3> size{};
 };
 
-/// The destination of a box's samples. The sample (i, j, k) is written to q[i + j * row + k * plane]; if it is negative
-/// (solid), bit first_bit + i of signs[j + k * sign_plane] is set.
+/// The destination of the samples of a box. Sample (i, j, k) is written to q[i + j * row + k * plane]. If the sample is
+/// negative (solid), bit first_bit + i of signs[j + k * sign_plane] is set.
 struct LatticeSamples {
   int32_t* q = nullptr;
   size_t row = 0, plane = 0;
@@ -76,8 +76,9 @@ struct FieldKernels {
 /// Returns the evaluator that computes one point at a time with plain floats.
 const FieldKernels& scalarKernels();
 
-/// Same as scalarKernels(), but adds the number of instructions times points to EvalScratch::operations. All evaluators
-/// of this interface do that amount of work, except for the padding of a block's last vector.
+/// Same as scalarKernels(), but counts the work: adds the number of instructions times the number of points to
+/// EvalScratch::operations. Every evaluator of this interface does the same work, except that a vector evaluator also
+/// computes the unused lanes of a block's last vector.
 const FieldKernels& countingKernels();
 
 }  // namespace sgm

@@ -1,8 +1,8 @@
 // Runs arrays of points through the interpreter in blocks. Include this file instead of evaluate_kernel.inl, which it
-// includes. The including file also defines signMask(p, count), whose bit i is the sign of p[i]; it may read whole
-// vectors.
+// includes. The including file also defines signMask(p, count), whose bit i is the sign of p[i]; this function may read
+// p up to the end of its last vector.
 
-#ifndef SGM_ONE_BY_ONE  // defined by tests that compare lists with single instructions
+#ifndef SGM_ONE_BY_ONE  // tests define it to run one instruction after another, without lists of primitives
 #define SGM_LISTS
 #include "field/operands.inl"
 #endif
@@ -22,7 +22,8 @@ inline BlockFrame makeFrame(EvalScratch& scratch) {
   return {words, words + registers, words + registers + places};
 }
 
-// Copies the positions of a block's points to place 0. The last point is repeated to fill whole vectors.
+// Copies the positions of a block's points to place 0, which holds the positions before any warp. Repeats the last
+// point to fill whole vectors.
 inline size_t loadPoints(const BlockFrame& f, const Points& points, size_t first, size_t count) {
   const size_t padded = (count + kLanes - 1) / kLanes * kLanes;
   const int32_t* axes[3] = {points.x + first, points.y + first, points.z + first};
@@ -46,7 +47,8 @@ inline void evaluateSamples(const ProgramView& program, const Points& points, Ev
   }
 }
 
-/// Writes the x and y coordinates of successive slices of a box to place 0, for `padded` points.
+/// Writes the x and y coordinates of points to place 0 (the positions before any warp), slice by slice, for `padded`
+/// points.
 inline void loadSlices(const BlockFrame& f, const LatticeBox& box, size_t padded) {
   uint32_t *x = f.places, *y = f.places + kEvalBlock, row[kEvalBlock];
   const size_t width = box.size[0];

@@ -169,8 +169,8 @@ SGM_KERNEL void runInstr(const BlockFrame& f, const Instr& in, Params P, size_t 
   }
 }
 
-// Joins the value of one group to the field or, if the group cuts, to the union that is removed from the field at the
-// end of its layer (program.h).
+// Joins the value of one group to the field. A group that cuts sharply is joined instead to the union of such cuts,
+// which is removed from the field at the end of the layer (program.h). A smooth cut is removed from the field at once.
 template <bool kGradient>
 SGM_KERNEL void foldGroup(const BlockFrame& f, const ProgramGroup& g, size_t n) {
   const bool smooth = g.smooth > 0;
@@ -209,7 +209,8 @@ SGM_KERNEL void runInstrs(const ProgramView& program, const BlockFrame& f, const
 }
 #endif
 
-// Runs the program on a block of n points, where n is a multiple of kLanes. Place 0 contains their positions.
+// Runs the program on a block of n points, where n is a multiple of kLanes. f.places contains the points' positions as
+// place 0.
 template <bool kGradient>
 SGM_KERNEL void runBlock(const ProgramView& program, const BlockFrame& f, size_t n) {
   const Real zero = broadcast(0.0f);

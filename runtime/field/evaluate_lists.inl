@@ -15,9 +15,9 @@ FN Dual primitiveAt(Int px, Int py, Int pz, Params P) {
   if constexpr (kOp == Op::blob) return opBlob(px, py, pz, P);
 }
 
-/// Returns the length of the list at the beginning of `instrs`: the number of pairs of a primitive and the instruction
-/// that adds it to the same accumulator as `add`. Each primitive overwrites the register of the previous one, so that
-/// no other instruction reads the earlier results.
+/// Counts the consecutive pairs of instructions at the beginning of `instrs`: a primitive, then an instruction that
+/// combines the primitive with the same accumulator as `add`. All these primitives write the same register, so no other
+/// instruction reads the result of any but the last one.
 SGM_KERNEL size_t pairsOf(std::span<const Instr> instrs, Op primitive, const Instr& add) {
   size_t pairs = 0;
   for (; 2 * pairs + 1 < instrs.size(); ++pairs) {
@@ -28,14 +28,14 @@ SGM_KERNEL size_t pairsOf(std::span<const Instr> instrs, Op primitive, const Ins
   return pairs;
 }
 
-/// Processes the points of kTogether vectors from point i on. Each addition waits for the previous one, so processing
-/// several vectors together takes little more time than processing one.
+/// Processes kTogether vectors of points, from point i on. Within a vector, each addition must wait for the previous
+/// one. Meanwhile the additions of the other vectors run, so several vectors together take little more time than one.
 template <bool kGradient, Op kPrimitive, Op kAdd, size_t kTogether>
 FN void addPairsAt(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t pairs,
                    size_t i) {
   const Instr& add = instrs[1];
-  // In a sum, the first accumulator holds the operand with the largest weight. It only determines the label, so it is
-  // needed only in gradient mode.
+  // In a sum, the first accumulator holds the operand with the largest weight. This operand only determines the label,
+  // so the accumulator is needed only in gradient mode.
   constexpr bool kFirst = kGradient || kAdd != Op::sum_add;
   Int px[kTogether], py[kTogether], pz[kTogether];
   Dual first[kTogether], second[kTogether], d[kTogether];
@@ -73,7 +73,8 @@ template <bool kGradient, Op kPrimitive, Op kAdd>
 SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
   const size_t pairs = pairsOf(instrs, kPrimitive, instrs[1]);
   size_t i = 0;
-  // Gradient mode processes single vectors, since it already uses many processor registers.
+  // Gradient mode processes one vector of points at a time instead of several together, since even one vector uses many
+  // processor registers there.
   if constexpr (!kGradient) {
     constexpr size_t kTogether = 2;
     for (; i + kTogether * kLanes <= n; i += kTogether * kLanes)
@@ -83,7 +84,8 @@ SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std:
   return 2 * pairs;
 }
 
-/// Runs the list at the beginning of `instrs`. Returns the number of instructions in the list, 0 if there is no list.
+/// If `instrs` begins with a list (primitives that one union or sum joins), runs the list and returns its number of
+/// instructions. Otherwise returns 0.
 template <bool kGradient>
 SGM_KERNEL size_t runList(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
 #ifdef SGM_ROWS
@@ -120,8 +122,8 @@ SGM_KERNEL void foldPrimitive(const ProgramView& program, const BlockFrame& f, c
   }
 }
 
-/// Runs a group that consists of one primitive and is not guarded, and joins its value to the field; returns false for
-/// all other groups.
+/// Runs a group that consists of one primitive and whose samples need no test against its influence box
+/// (ProgramGroup::guarded), and joins its value to the field. Returns false for all other groups.
 template <bool kGradient>
 SGM_KERNEL bool runAlone(const ProgramView& program, const BlockFrame& f, const ProgramGroup& g, size_t n) {
   if (g.count != 1 || g.guarded || g.smooth > 0 || program.instrs[g.first].place != 0) return false;
@@ -143,8 +145,9 @@ SGM_KERNEL bool runAlone(const ProgramView& program, const BlockFrame& f, const 
   }
 }
 
-/// Constants whose registers have not been written to their planes yet. Most constants are operands of arithmetic,
-/// which uses them directly, so that they are never stored and loaded.
+/// Constants that have not been written to memory yet. (A register's memory holds one value for each point of the
+/// block.) Most constants are operands of arithmetic, which uses them directly, so most are never written to memory at
+/// all.
 struct HeldConstants {
   uint32_t held = 0;  ///< mask of the registers whose constants are held, one bit each
   float value[kMaxRegisters] = {};
@@ -159,8 +162,8 @@ struct HeldConstants {
     value[r] = PF(P, 0);
   }
   SGM_KERNEL void forget(uint32_t registers) { held &= ~registers; }
-  /// Writes the held constants that are needed to the planes of their registers. registers: mask of the registers that
-  /// are needed.
+  /// Writes held constants to the memory of their registers, for those registers that are needed. registers: mask of
+  /// the registers that are needed.
   template <bool kGradient>
   SGM_KERNEL void settle(const BlockFrame& f, uint32_t registers, size_t n) {
     const uint32_t wanted = held & registers;
@@ -212,7 +215,7 @@ SGM_KERNEL bool runWithConstant(const BlockFrame& f, const Instr& in, const Held
 #undef SGM_WITH
 }
 
-/// Runs the instructions of a group.
+/// Runs all instructions of one group of the program, for the n points of the block.
 template <bool kGradient>
 SGM_KERNEL void runInstrs(const ProgramView& program, const BlockFrame& f, const ProgramGroup& g, size_t n) {
   const std::span<const Instr> instrs = program.instrs.subspan(g.first, g.count);
@@ -226,7 +229,8 @@ SGM_KERNEL void runInstrs(const ProgramView& program, const BlockFrame& f, const
       continue;
     }
     if (const size_t done = runList<kGradient>(program, f, instrs.subspan(at), n); done > 0) {
-      // the list has overwritten the register that its first instruction writes; its accumulators contain no constants
+      // The list has overwritten the register that its first instruction writes, so a constant held for this register
+      // is obsolete. The accumulators of a list contain no constants.
       constants.forget(1u << in.dst);
       at += done;
       continue;

@@ -3,11 +3,13 @@
 // Both are computed once, and each sample looks up the gradients at its corners. A gradient has at most two components
 // that are not 0, so the sum of three products has the same bits in every order. Included by evaluate_lists.inl.
 
-inline constexpr size_t kMaxNoisePeriods = 7;  ///< maximum number of periods along an axis; these have kRow corners
+/// maximum number of noise periods along an axis; they have one corner more than there are periods, that is, kRow
+/// corners
+inline constexpr size_t kMaxNoisePeriods = 7;
 inline constexpr size_t kMaxNoiseRows = kEvalBlock / kRow;
 
-/// The data of one axis of a block for one octave. Each word is repeated kRow times, because vectors contain whole
-/// rows.
+/// The data of one axis of a block for one octave. Each word is repeated kRow times, because a vector contains whole
+/// rows of points.
 struct NoiseAxis {
   size_t periods = 0;  ///< number of noise periods that contain the coordinates
   /// index of the period of each coordinate, relative to the period of the first coordinate
@@ -69,7 +71,7 @@ struct NoiseCorners {
   }
 };
 
-/// The data of one octave for a block. It is large, so each octave reuses it.
+/// The data of one octave for a block. They are large, so all octaves use the same object, one after the other.
 struct NoiseBlock {
   NoiseAxis columns, rows, slices;
   NoiseCorners corners;
@@ -93,7 +95,8 @@ struct NoiseBlock {
     return true;
   }
 
-  /// Evaluates two rows, given by their indices along y and z; with 8 lanes only the first row.
+  /// Evaluates the samples of two rows, given by their indices along y and z. With 8 lanes, a vector holds only one
+  /// row, so the second one is ignored.
   SGM_KERNEL Real sample(size_t y0, size_t z0, size_t y1, size_t z1) const {
     const auto of = [&](const uint32_t* words, size_t a, size_t b) {
       return loadRows(words + a * kRow, words + b * kRow);
@@ -106,8 +109,8 @@ struct NoiseBlock {
     const size_t height = rows.periods + 1;
     const size_t row0 = slices.period[z0] * height + rows.period[y0],
                  row1 = slices.period[z1] * height + rows.period[y1];
-    // Interpolates along an edge of the noise cell that is parallel to x. up, behind: 1 if the edge is on the high side
-    // of the cell in y, in z; otherwise 0.
+    // Interpolates along an edge of the noise cell that is parallel to x. up: 1 if the edge is on the cell's high side
+    // in y, otherwise 0; behind: the same in z.
     const auto edge = [&](size_t up, size_t behind) {
       const size_t a = row0 + behind * height + up, b = row1 + behind * height + up;
       const Real slope = of(corners.x, a, b);
@@ -142,7 +145,8 @@ SGM_KERNEL size_t latticeNoise(const BlockFrame& f, const Instr& in, Params P, s
     if (!block.place(*f.lattice, P, QI(P, 6 + 2 * k), QF(P, 7 + 2 * k), PU(P, 4) + 0x9E3779B9u * static_cast<uint>(k)))
       return 0;
     size_t y = 0, z = 0;
-    // Moves to the next row of the block. It stays at the last row, since the results of lanes beyond it are ignored.
+    // Moves to the next row of the block, but not beyond the last row: lanes beyond the last row repeat it, and their
+    // results are ignored.
     const auto step = [&] {
       if (y + 1 < height) {
         ++y;

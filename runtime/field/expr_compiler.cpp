@@ -34,7 +34,7 @@ Op binaryOp(ExprOp op) {
     case ExprOp::mix:
       break;
   }
-  return Op::count;  // the other expressions do not have exactly two operands
+  return Op::count;  // the expressions above are not binary operations
 }
 
 }  // namespace

@@ -9,11 +9,11 @@
 
 namespace sgm {
 
-/// Emits the expressions of one grammar chunk. Each expression is emitted once per group and place; further uses read
-/// its register.
+/// Emits the expressions of one grammar chunk. Each expression is emitted once for each combination of a group and a
+/// place (the sample's position, or a warped one); further uses read its register.
 class ExprCompiler {
  public:
-  /// cell: edge of the level's cells in units, which limits the octaves of noise.
+  /// cell: edge length of the level's cells, in units. Octaves of noise that are too fine for such cells are omitted.
   ExprCompiler(const GrammarChunk& chunk, int32_t cell, ProgramBuilder& builder, std::pmr::memory_resource* memory)
       : chunk_(chunk), cell_(cell), builder_(builder), known_(chunk.exprs.size(), memory) {}
 
@@ -39,7 +39,8 @@ class ExprCompiler {
   ProgramBuilder& builder_;
   std::pmr::vector<Known> known_;
   uint64_t epochs_ = 0;
-  /// number of the current combination of group and place (warp); cached values are valid only for it
+  /// number of the current combination of a group and its place (warp); a cached value is valid only while this number
+  /// is unchanged
   uint64_t epoch_ = 0;
 };
 

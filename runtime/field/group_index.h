@@ -19,7 +19,7 @@ class GroupIndex {
  private:
   struct Node {
     IntBox bounds;
-    uint32_t first = 0, count = 0;  ///< range of indices in order_, if the node is a leaf
+    uint32_t first = 0, count = 0;  ///< for a leaf of the hierarchy: its range of indices in order_
     uint32_t right = 0;             ///< index of the right child; the left child follows its parent
   };
   uint32_t build(const GrammarChunk& chunk, uint32_t first, uint32_t count);

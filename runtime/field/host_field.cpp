@@ -11,7 +11,8 @@ namespace sgm {
 namespace {
 
 constexpr double kStepsAUnit = 1024;
-/// Spacing in units of the lattice that replaces a lattice far from the surface, whose samples are all equal.
+/// Spacing in units of the small lattice that is used if all samples are equal, because the box is far from the
+/// surface.
 constexpr int32_t kFarSpacing = 1 << 22;
 
 /// Rounds a sample to whole steps of 1/1024 unit, so that differences in the last bits of host programs do not matter
@@ -32,8 +33,8 @@ Error badSample(const SampleLattice& at, size_t i, const std::string& what) {
   return {Code::invalid_argument, text};
 }
 
-/// Rejects samples that are steeper than the host states. Otherwise a chunk that takes only one sample, because of the
-/// stated steepness, would not match a neighbour that samples all points.
+/// Rejects samples that are steeper than the host states. For a chunk far from the surface, the stated steepness allows
+/// taking a single sample. If it were wrong, this chunk would not match a neighbour that takes all samples.
 Result<void> checkSteepness(const HostField& field, const SampleLattice& at, std::span<const float> values) {
   const size_t row = at.count[0], layer = row * at.count[1];
   const double most = double{field.steepness} * at.spacing;
@@ -58,8 +59,8 @@ Result<void> takeSamples(const HostField& field, const SampleLattice& at, std::s
   return field.steepness > 0 ? checkSteepness(field, at, values) : Result<void>();
 }
 
-/// If one sample proves that the whole lattice is far from the surface, returns 1 with the sign of that sample;
-/// otherwise 0.
+/// Samples one point of the lattice. If its value proves that the whole lattice is far from the surface, returns the
+/// sign of the value (1 or -1); otherwise 0.
 Result<float> farSide(const HostField& field, const SampleLattice& lattice, double limit) {
   SampleLattice middle = lattice;
   double square = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Fields that the host program supplies as samples, such as the terrain of an engine, instead of deriving them from a
+// Fields whose samples the host program supplies, such as the terrain of an engine; they are not derived from a
 // grammar.
 
 #include <cstdint>
@@ -18,12 +18,13 @@ struct HostField {
   /// spacing, because chunks that share points request them separately. Called from any thread, also concurrently.
   std::function<Result<void>(const SampleLattice& at, std::span<float> values)> sample;
   uint64_t identity = 0;  ///< identifies the sampled field: must change if any sample changes
-  IntBox bounds;          ///< beyond the distance of the blend plus two cells from this box, the field has no effect
+  IntBox bounds;          ///< the field has no effect farther from this box than `smooth` plus two cells
   bool cut = false;       ///< true: removes the field's solid; false: adds it
   uint32_t label = 0;     ///< tag << 16 | material
   int32_t smooth = 0;     ///< width of the blend with the existing field, 0 to kWidestHostBlend units; 0: none
-  /// Maximum change of the value per unit of distance; 0: unknown. If it is known, a box far from the surface needs
-  /// only one sample: values above kWidestHostBlend and above the possible change over two cells count as far.
+  /// Maximum change of the value per unit of distance; 0: unknown. If it is known, a single sample can prove that a box
+  /// is far from the surface; then no other samples are taken in this box. A value counts as far if it exceeds
+  /// kWidestHostBlend and the largest possible change over two cells.
   float steepness = 0;
 };
 

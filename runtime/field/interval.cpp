@@ -32,7 +32,7 @@ Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interva
     }
     case Op::square_root: {
       const Interval r{std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0))};
-      // The margin covers the square roots of tiny values that the evaluators treat as 0.
+      // The margin of 1e-15 covers the square roots of operands below 1e-30, which the evaluators treat as 0.
       return widened(r, error * r.hi + 1e-15);
     }
     case Op::add:
@@ -52,7 +52,7 @@ Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interva
     case Op::less:
       return {a.hi < b.lo ? 1.0 : 0.0, a.lo < b.hi ? 1.0 : 0.0};
     case Op::smoothstep: {
-      // The evaluators clamp t to 0..1 before any other rounding, so the ends of t give exactly 0 and 1.
+      // The evaluators clamp t to 0..1 before they compute the polynomial, so t = 0 and t = 1 give exactly 0 and 1.
       const double inv = realAt(p, 1);
       const Interval raw = product({a.lo - realAt(p, 0), a.hi - realAt(p, 0)}, {inv, inv});
       const Interval t = widened(raw, error * std::abs(inv) * (magnitude(a) + std::abs(realAt(p, 0))));

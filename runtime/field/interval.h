@@ -11,7 +11,7 @@ struct Interval {
   double lo = 0, hi = 0;
 };
 
-/// A box of positions in units: all positions that one place of a program (program.h) may have.
+/// A box of positions, in units: it contains all positions that one position register (a place, program.h) may hold.
 struct PlaceBox {
   Interval x, y, z;
 };
@@ -21,8 +21,8 @@ PlaceBox placeBox(const IntBox& box);
 /// Returns the relative error that ops.def states for the op.
 double statedError(Op op);
 
-/// Returns the sum of the sizes that enter a primitive's value, without the position: the rounding error of the value
-/// is relative to this sum plus the distance from the primitive's centre.
+/// Returns the sum of those sizes of a primitive that affect its value. The rounding error of the value is proportional
+/// to this sum plus the distance of the position from the primitive's centre.
 double sizeSum(Op op, const uint32_t* params);
 
 /// Returns bounds of an op that reads a position. t: the operand of power_morph; ignored by other ops.
@@ -31,13 +31,14 @@ Interval boundPosition(Op op, const uint32_t* params, const PlaceBox& box, Inter
 /// Returns bounds of an op on operands a, b, c. Does not support accumulating ops and warps.
 Interval boundOperands(Op op, const uint32_t* params, Interval a, Interval b, Interval c);
 
-/// Returns bounds of the value at the end of a round union. nearest, sum: bounds of the union's two registers.
+/// Returns bounds of the value at the end of a round union. nearest, sum: bounds of the union's two registers (the
+/// smallest operand, and the sum of the amounts of boundRoundShare()).
 Interval boundRoundEnd(const uint32_t* params, Interval nearest, Interval sum);
 Interval boundSumEnd(const uint32_t* params, Interval sum);
 /// Returns bounds of the amount that one operand adds to the sum of a round union. d: bounds of the operand.
 Interval boundRoundShare(const uint32_t* params, Interval d);
-/// boundRoundUnion() returns bounds of the round union of a field and a smooth group (program.h) of width k > 0;
-/// boundRoundCut() returns bounds of the field minus the group.
+/// boundRoundUnion() returns bounds of the round union of the field (a) and a smooth group (b; program.h) whose blend
+/// has the width k > 0; boundRoundCut() returns bounds of the field minus the group.
 Interval boundRoundUnion(Interval a, Interval b, double k);
 Interval boundRoundCut(Interval a, Interval b, double k);
 

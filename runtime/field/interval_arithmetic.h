@@ -45,8 +45,8 @@ inline Interval clamped(Interval a, double lo, double hi) {
 
 inline Interval kept(Interval a) { return clamped(a, -kHeld, kHeld); }
 
-/// Returns the offsets of positions from c along one axis, saturated as in the evaluators. Saturation never makes an
-/// offset change faster than the position, so bounds that are derived from slopes hold at any distance.
+/// Returns the offsets of positions from c along one axis, clamped to the range of an int32 as in the evaluators. A
+/// clamped offset never changes faster than the position, so bounds that are derived from slopes hold at any distance.
 inline Interval offsets(Interval axis, double c) {
   return clamped({axis.lo - c, axis.hi - c}, -2147483648.0, 2147483647.0);
 }
@@ -67,8 +67,8 @@ inline Interval blend(Interval a, Interval b, Interval t) {
   return {std::min(p.lo, q.lo), std::max(p.hi, q.hi)};
 }
 
-/// Returns bounds of the compact kernel. They are exactly [0, 0] if the kernel is certainly 0, because an operand that
-/// adds exactly 0 may be dropped.
+/// Returns bounds of the compact kernel max(0, 1 - x)^3. They are exactly [0, 0] if the kernel is certainly 0, because
+/// pruning may drop an operand that adds exactly 0.
 inline Interval kernelBounds(Interval x, double error) {
   auto cube = [](double v) {
     const double k = std::max(0.0, 1 - v);

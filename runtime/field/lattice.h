@@ -1,5 +1,6 @@
 #pragma once
-// A lattice of samples at integer positions: the form of fields from outside of the grammar (shaders/common/lattice.h).
+// A lattice of samples at integer positions: the form in which a program stores host fields and voxels
+// (shaders/common/lattice.h).
 
 #include <array>
 #include <cstddef>
@@ -17,12 +18,13 @@ struct SampleLattice {
   std::array<uint32_t, 3> count{4, 4, 4};
 };
 
-/// kFarSample replaces samples that count as far. Other samples have a magnitude of at most kLargestSample.
+/// kFarSample: the value of the lattice op wherever the interpolated value is at or beyond the op's limit. Samples have
+/// a magnitude of at most kLargestSample.
 inline constexpr float kFarSample = 1e18f, kLargestSample = 1e12f;
 
 /// Returns the points of the lattice cells that contain the box, and of one more cell on every side. Lattices of equal
-/// spacing all pass through the world's origin, so that boxes which share a cell share its samples. At the end of the
-/// world, where a cell would leave it, the lattice ends with the last whole cell.
+/// spacing all pass through the world's origin, so that all boxes that contain a cell use the same samples for this
+/// cell. At the world's border the lattice ends with the last cell that lies completely in the world.
 SampleLattice latticeAround(const IntBox& box, int32_t spacing);
 
 /// Returns the number of points; nullopt if it exceeds the limits of an op (2^25 points; an extent of 2^30 units along

@@ -1,5 +1,6 @@
 #pragma once
-// A sequence of ops on values: the form of a group until it is complete and its values get registers.
+// A sequence of ops on values: the form of a group of ops under construction. The values get registers when the group
+// is complete.
 
 #include <memory_resource>
 #include <vector>
@@ -15,20 +16,20 @@ struct Value {
   uint32_t id = kNone;
 };
 
-/// The ops of one group under construction, and the place that the next op reads. Parameter `params` of functions:
-/// index of an op's first parameter word. Not thread-safe.
+/// The ops of one group under construction, and the current place: the position register that the next op reads.
+/// Parameter `params` of functions: index of an op's first parameter word. Not thread-safe.
 class OpSequence {
  public:
   explicit OpSequence(std::pmr::memory_resource* memory) : steps_(memory) {}
 
-  /// Returns a value that no op has written yet.
+  /// Returns a new value; a later op writes it.
   Value reserve() { return {next_value_++}; }
   /// Appends an op, and returns its result.
   Value emit(Op op, uint32_t params, Value a = {}, Value b = {}, Value c = {});
-  /// Appends an op that adds an operand to the two values of an accumulator.
+  /// Appends an op that adds an operand to an accumulator, which consists of the values `nearest` and `sum`.
   void accumulate(Op op, uint32_t params, Value nearest, Value operand, Value sum);
 
-  /// Makes the following ops read the place that is warped by x, y, z, until popWarp().
+  /// Makes all ops until popWarp() read the current position displaced by (x, y, z), in metres.
   void pushWarp(Value x, Value y, Value z);
   void popWarp() { --place_; }
 

@@ -1,5 +1,5 @@
 // Returns the mask of registers that an instruction reads, one bit each. prune_kernel.inl and evaluate_blocks.inl
-// include this file into the namespaces of the files that include them.
+// include this file, so that the function lands in the namespace of the file that includes those two.
 
 SGM_KERNEL uint32_t operandMask(const Instr& in) {
   const uint32_t a = 1u << in.a, b = 1u << in.b, c = 1u << in.c;

@@ -56,8 +56,8 @@ Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
   return {std::max(-1.0, v - change - error), std::min(1.0, v + change + error)};
 }
 
-// Bounds values that are monotone in the local coordinates |x|, |y|, |z|, by the ranges of these coordinates over the
-// box. The bounds are nearly tight if the frame is axis-aligned, however long the box's diagonal is.
+// The ranges of the local coordinates |x|, |y|, |z| over a box. They bound every value that is monotone in these
+// coordinates, nearly tightly if the frame is axis-aligned, however long the box's diagonal is.
 struct LocalRange {
   std::array<double, 3> near{}, far{};  ///< minimum and maximum of |q| along each local axis
 };
@@ -96,9 +96,10 @@ double cylinderDistance(double radius, double half_height, const std::array<doub
   return std::sqrt(outer_a * outer_a + outer_b * outer_b) + std::min(std::max(a, b), 0.0);
 }
 
-// Bounds the distance from a capsule's axis. The distance from a convex set is convex, so it is nowhere below its
-// tangent at the box's middle. It is also nowhere above the distance from the point of the axis that is nearest to the
-// middle. Neither bound differs from the value at the middle by more than half the diagonal.
+// Bounds the distance from a capsule: the distance from its axis, a segment, minus its radius. The distance from a
+// convex set is convex, so it is nowhere below its tangent at the box's middle. It is also nowhere above the distance
+// from the point of the axis that is nearest to the middle. Neither bound differs from the value at the middle by more
+// than half the box's diagonal.
 Interval capsuleRange(const uint32_t* p, const CentredBox& c) {
   auto offset = [&](double at, int word) { return offsets({at, at}, wholeAt(p, word)).lo; };
   std::array<double, 3> d{offset(c.x, 1), offset(c.y, 2), offset(c.z, 3)};
@@ -153,9 +154,9 @@ Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
   }
 }
 
-// Bounds a power morph. As t increases, the exponent n grows, so that the norm falls, and the radii change. The bounds
-// treat both effects separately: ||u||_max <= ||u||_n <= ||u||_2, each for the smaller and the larger radii at the ends
-// of t. radius: half the box's diagonal.
+// Bounds a power morph: the n-norm of u (the local position divided by the radii), minus 1. As t increases, the
+// exponent n grows, so that the norm falls; the radii change, too. The bounds treat both effects separately: ||u||_max
+// <= ||u||_n <= ||u||_2, each for the smaller and the larger radii at the ends of t. radius: half the box's diagonal.
 Interval powerMorphRange(const uint32_t* p, const CentredBox& c, double radius, Interval t) {
   const Interval s = clamped(t, 0, 1);
   if (s.lo == s.hi) {

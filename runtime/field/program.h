@@ -1,12 +1,13 @@
 #pragma once
-// A field program: immutable straight-line code per group, and the fold that combines the groups.
+// A field program: immutable straight-line code per group, and the fold that combines the values of the groups.
 //
-// At a point p the field starts as `initial` (the domain: far inside or far outside). Layer by layer, the groups whose
-// influence box contains p are added, f = min(f, g), and then the union of those that cut is removed, f = max(f, -min
-// g). A smooth group is a layer of its own and blends with the existing field: by the round union of f and g, or, for a
-// cut, by the negated round union of -f and g (roundUnion in shaders/common/combine.h). The influence boxes are part of
-// the field's definition, so the value at p does not depend on the chunk that evaluates it. Everything is in units
-// (1/1024 m). Programs can be shared between threads; evaluators have their own scratch.
+// At a point p the field f starts as `initial` (the domain: far inside or far outside). Only groups whose influence box
+// contains p take part. In each layer, the groups that add come first: f = min(f, g) for the value g of each. Then the
+// union of the groups that cut is removed: f = max(f, -min g). A smooth group is a layer of its own and blends with the
+// existing field: by the round union of f and g, or, for a cut, by the negated round union of -f and g (roundUnion in
+// shaders/common/combine.h). The influence boxes are part of the field's definition, so the value at p does not depend
+// on the chunk that evaluates it. Everything is in units (1/1024 m). Programs can be shared between threads; evaluators
+// have their own scratch.
 
 #include <cstdint>
 #include <memory_resource>
@@ -29,13 +30,13 @@ const char* opName(Op op);
 inline constexpr int kMaxRegisters = 32;  ///< per group
 /// registers for positions: place 0 is the sample's position, the others are results of warps
 inline constexpr int kMaxPlaces = 8;
-/// The value of an empty domain, in units: larger than every other value, so that a cut by an empty group removes
-/// nothing.
+/// The field's value, in units, if the domain is empty and no group has added a shape. It is larger than every other
+/// value, so that a cut by an empty group removes nothing.
 inline constexpr float kFar = 1.0e30f;
 
-/// One operation. Its result goes to register dst; a, b and c are its operands. place: the position that a POSITION op
-/// reads, or from which a warp starts; a warp's result is the place dst. Accumulating ops use dst and b as their two
-/// registers, and a as the operand.
+/// One operation. Its result goes to the register dst; a, b and c are its operands. An accumulating op updates the
+/// registers dst and b, and has the operand a. place: a position register, which a POSITION op reads, and from which a
+/// warp starts. A warp writes the warped position to the position register dst.
 struct Instr {
   Op op = Op::constant;
   uint8_t dst = 0, a = 0, b = 0, c = 0, place = 0;
@@ -47,11 +48,11 @@ static_assert(sizeof(Instr) == 12);
 struct ProgramGroup {
   IntBox influence;
   uint32_t first = 0, count = 0;  ///< range of indices of the group's instructions in ProgramView::instrs
-  uint32_t layer = 0;             ///< the groups of a layer are consecutive, those that add before those that cut
+  uint32_t layer = 0;             ///< all groups of a layer are consecutive: first those that add, then those that cut
   uint8_t result = 0;             ///< the register that holds the group's value
   bool cut = false;
-  /// true: each sample must be tested against the influence box; false: all samples that will be requested are known to
-  /// lie in the box
+  /// true: evaluators must test whether a sample lies in the influence box; false: all samples of this program are
+  /// known to lie in it
   bool guarded = true;
   float smooth = 0;  ///< width of the blend in units, set only if the layer has no other group; 0: no blend
 };
@@ -90,7 +91,8 @@ struct FieldProgram {
 
 inline constexpr uint32_t makeLabel(uint16_t material, uint16_t tag) { return uint32_t{tag} << 16 | material; }
 
-/// Returns the scale for a finest cell of this many units: Q = floor(f * scale + 0.5).
+/// Returns the scale for a finest cell of this many units. A field value f, in units, is quantised to floor(f * scale +
+/// 0.5).
 inline float quantiseScale(int32_t finest_cell_units) {
   return static_cast<float>(1024.0 / static_cast<double>(finest_cell_units));
 }

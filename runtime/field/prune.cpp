@@ -21,8 +21,8 @@ float floatOf(uint32_t word) { return std::bit_cast<float>(word); }
 
 PlaceBox movePlaces(const PlaceBox& from, Interval x, Interval y, Interval z) {
   auto moved = [](Interval v, Interval w) {
-    // If a warp could move a position beyond the end of the world, the bounds of the moved position are the whole
-    // world.
+    // Bounds of a moved position along one axis. If a warp could move it beyond the end of the world, its bounds are
+    // those of the whole world.
     auto held = [](double by) { return std::clamp(by, -1048576.0, 1048576.0) * 1024; };
     const Interval m{v.lo + held(w.lo) - 1, v.hi + held(w.hi) + 1};
     if (m.lo < -2147483648.0 || m.hi > 2147483647.0) return Interval{-2147483648.0, 2147483647.0};

@@ -6,8 +6,8 @@
 
 namespace sgm {
 
-/// The result of pruning. Refers to the parameter words of the program that was pruned, which must outlive it. Can be
-/// reused for several boxes, to save allocations.
+/// The result of pruning. Its `params` refer to the words of the program that was pruned, so that program must outlive
+/// it. Can be reused for several boxes, to save allocations.
 struct PrunedProgram {
   std::pmr::vector<Instr> instrs;
   std::pmr::vector<ProgramGroup> groups;
@@ -21,7 +21,8 @@ struct PrunedProgram {
       : instrs(memory), groups(memory) {}
 
   ProgramView view() const { return {instrs, params, groups, initial, initial_label, q_scale}; }
-  /// solid(): true if all samples of the box are quantised to solid; empty(): true if all are quantised to void.
+  /// solid(): true if the bounds prove that all samples of the box are quantised to solid values; empty(): true if they
+  /// prove the same for void values.
   bool solid() const { return field.hi * static_cast<double>(q_scale) < -0.51; }
   bool empty() const { return field.lo * static_cast<double>(q_scale) > -0.49; }
 };
@@ -35,14 +36,14 @@ class PruneScratch {
     Interval value;
     bool met, whole, live;
   };
-  /// one per instruction: intermediate bounds that decide whether the instruction is kept (prune_kernel.inl)
+  /// one per instruction: intermediate bounds, by which prune_kernel.inl decides whether to keep the instruction
   std::pmr::vector<Interval> marks;
   std::pmr::vector<GroupBounds> bounds;
   std::pmr::vector<Instr> reversed;
 };
 
-/// The treatment of a program that is proven to be solid or void everywhere in the box: drop all instructions, or keep
-/// those that the exact values need.
+/// How to treat a program that is proven to be solid, or proven to be void, everywhere in the box: drop all
+/// instructions, or keep those that affect the exact values.
 enum class Uniform { drop, keep };
 
 /// Prunes `program` to a closed box, which must contain all positions that will be sampled. `program` must not be a

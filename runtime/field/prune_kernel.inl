@@ -56,11 +56,13 @@ SGM_KERNEL bool readsPosition(Op op) {
 #undef SGM_FORM_SUM_END
 #undef SGM_FORM_WARP
 
-// Registers that contain the floor of another register's current value. The difference of a value and its floor lies in
-// 0..1, which cannot be concluded from their separate bounds.
+// Knows which registers currently contain the floor of another register's value. The difference of a value and its
+// floor lies in 0..1, which cannot be concluded from the bounds of the two registers.
 struct FloorSources {
-  uint32_t known = 0;                   // mask of the registers that contain the floor of another register
-  uint32_t floors[kMaxRegisters] = {};  // for each register: mask of the registers that contain the floor of its value
+  uint32_t known = 0;                   // mask of the registers whose current value is the floor of another register's
+                                        // value
+  uint32_t floors[kMaxRegisters] = {};  // for each register: mask of the registers whose current value is the floor of
+                                        // its value
   uint8_t source[kMaxRegisters] = {};
 
   SGM_KERNEL bool floorOf(uint8_t a, uint8_t b) const { return (known >> b & 1) != 0 && source[b] == a; }
@@ -76,8 +78,9 @@ struct FloorSources {
   }
 };
 
-// Bounds the result of one group. Writes a mark for each instruction, for the backward pass: for a min, max, cut or
-// morph, its lo is the Choice of the operands that matter; for an accumulation, the mark is the bounds of its operand.
+// Bounds the result of one group. Writes a mark for each instruction, which the backward pass (keepGroup) reads. For a
+// min, max, cut or morph, the mark's lo is the Choice of the operands that matter; for an accumulating op, the mark is
+// the bounds of its operand.
 template <class Marks>
 SGM_KERNEL Bound boundGroup(const ProgramView& program, const ProgramGroup& g, const Places& box, Marks marks) {
   Bound r[kMaxRegisters];
@@ -214,10 +217,10 @@ SGM_KERNEL void keepGroup(const ProgramView& program, const ProgramGroup& g, Mar
   }
 }
 
-// Joins the bounds of a smooth group to the bounds of the field; returns true if the group replaces the field. A group
-// has no effect if its value is at least k (the width of its blend) and not below the value of the field (for a cut, of
-// the negated field). Conversely, a group that adds replaces the field if the field's value is at least k and above the
-// group's value.
+// Combines the bounds of a smooth group with the bounds of the field. Returns true if the group replaces the field. k:
+// the width of the group's blend. A group that adds has no effect if its value is at least k and not below the field's
+// value; a group that cuts, if its value is at least k and not below the negated field's value. Conversely, a group
+// that adds replaces the field if the field's value is at least k and above the group's value.
 SGM_KERNEL bool foldSmooth(const ProgramGroup& g, GroupBounds& b, Bound& field) {
   const Scalar k = Scalar{g.smooth};
   const Bound under = field, distance = g.cut ? Bound{-under.hi, -under.lo} : under;
@@ -285,8 +288,9 @@ SGM_KERNEL FieldBounds boundField(const ProgramView& program, const IntBox& box,
       }
     }
     const Bound joined{minOf(field.lo, adds.lo), minOf(field.hi, adds.hi)};
-    // A group that adds is never the minimum if its lower bound is above the layer's upper bound. A group that cuts has
-    // no effect if another cut is always stronger, or if the cut surface is always outside of the solid that it cuts.
+    // A group that adds has no effect if its lower bound is above the layer's upper bound, since it is then never the
+    // minimum. A group that cuts has no effect if another cut is always stronger, or if the cut surface is always
+    // outside of the solid that it cuts.
     const bool replaced = adds.hi < field.lo;
     for (size_t i = first; i < last; ++i) {
       GroupBounds& b = bounds[i];

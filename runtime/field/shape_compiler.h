@@ -13,11 +13,13 @@
 
 namespace sgm {
 
-/// Compiles shapes of one grammar chunk recursively, and stores the warps and the sweep around the current shape.
+/// Compiles shapes of one grammar chunk recursively, and keeps track of the warps and the sweep that enclose the
+/// current shape.
 class ShapeCompiler {
  public:
-  /// box: contains every position that will be sampled; cell_number: ShapeLabels::Source::cell; shapes: null, or the
-  /// table that assigns numbers to shapes, which then serve as labels.
+  /// box: contains every position that will be sampled; cell_number: the value for ShapeLabels::Source::cell; shapes:
+  /// the table that numbers the shapes, if the labels of the field identify shapes; null if they are materials and
+  /// tags.
   ShapeCompiler(const GrammarChunk& chunk, uint32_t cell_number, const IntBox& box, int32_t cell, ShapeLabels* shapes,
                 ProgramBuilder& builder, std::pmr::memory_resource* memory)
       : chunk_(chunk),
@@ -29,7 +31,7 @@ class ShapeCompiler {
         memory_(memory),
         exprs_(chunk, cell, builder, memory) {}
 
-  /// Emits a shape; nullopt if the whole shape is too small for the level and dropped.
+  /// Emits a shape; nullopt if the level drops the whole shape because it is too small.
   Result<std::optional<Value>> root(uint32_t shape) {
     exprs_.beginGroup();
     return emit(shape, 0);
@@ -47,8 +49,8 @@ class ShapeCompiler {
   uint32_t labelOf(uint32_t index);
 
   Emitted emit(uint32_t index, int depth);
-  /// Emits a hard union or intersection, operand by operand. If the level drops an operand of an intersection, it drops
-  /// the whole intersection.
+  /// Emits a hard union or intersection, operand by operand. If an operand of an intersection is too small for the
+  /// level of detail, the whole intersection is dropped.
   Emitted chain(const Shape& s, Op op, int depth, bool all);
   Emitted subtract(const Shape& s, int depth);
   /// Emits the round union of the children. Intersection and subtraction are round unions with negated operands: an

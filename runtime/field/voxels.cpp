@@ -12,7 +12,8 @@ namespace {
 
 using Counts = std::pmr::vector<uint16_t>;
 
-/// The sampling of a block along an axis at a level: voxels per sample, and half width of the tent filter in voxels.
+/// The sampling of a block along an axis at a level. step: number of voxels from one sample to the next; tent: half
+/// width of the tent filter, in voxels.
 struct Sampling {
   int32_t step = 1, tent = 2;
 };
@@ -93,8 +94,8 @@ std::optional<SampleLattice> sampleVoxels(const GrammarChunk& chunk, const Shape
                                           int32_t cell, std::pmr::vector<float>& samples) {
   const VoxelBlock& block = chunk.blocks[shape.block];
   const Sampling sampling = samplingAt(block.edge, cell);
-  // More than one edge away from the block's box, the box determines the shape, because its value is farther from 0
-  // than any sample.
+  // The field is the maximum of the voxel samples and the block's box. At points more than one voxel edge outside the
+  // box, this maximum is the value of the box, so no samples are needed there.
   IntBox decides;
   for (int axis = 0; axis < 3; ++axis) {
     const auto half = static_cast<int64_t>(shape.size[static_cast<size_t>(axis)]) + block.edge;

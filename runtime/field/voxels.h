@@ -7,11 +7,12 @@
 // is 2 (1/2 - s) voxel edges, or 4 (1/2 - s) if every fourth voxel is sampled. s is the solid share of the surrounding
 // voxels, weighted by a tent along each axis that ends two (four) voxels away. At steps of one and two voxels, the sign
 // of a sample is that of its own voxel, and its magnitude is at least a quarter of an edge, so that the field agrees
-// with the automaton at each sampled voxel. No sample is farther than 7/8 of an edge from 0.
+// with the automaton at each sampled voxel. The magnitude of a sample is at most 7/8 of an edge.
 //
-// The shape is max(samples, box), and the box extends one edge beyond its cell. Where the value of one box is as near
-// to 0 as a sample can be, the position is farther inside the neighbour's box. So the union of neighbours equals the
-// samples, to the bit, wherever all neighbours are present.
+// The shape is max(samples, box). The box extends one edge beyond the block's cell, so its value can exceed a sample
+// only less than one edge inside its faces, or outside of it. Such a position lies in the cell of a neighbouring block,
+// at least one edge inside the neighbour's box, where the neighbour's shape equals the samples. So the union of
+// neighbours equals the samples, to the bit, wherever all neighbours are present.
 
 #include <memory_resource>
 #include <optional>

@@ -30,7 +30,8 @@ bool fits(std::string_view text, const CompileLimits& limits, DiagnosticSink& si
   return false;
 }
 
-/// Whether a file only contains declarations that an import may have, and at least one that others can use.
+/// True if a file contains only declarations that an imported file may have, and at least one that importing files can
+/// use.
 bool isLibrary(const ModuleSyntax& root) {
   bool gives = false;
   for (const Item& item : root.items) {
@@ -76,8 +77,8 @@ CheckResult compile(std::string_view text, std::string_view path, const CompileO
   const uint32_t unread = sink.errorCount();
   check.library = libraries && isLibrary(syntax[0]);
   if (unread == 0) {
-    // The canonical text and the hash are made before the checker runs, since it rewrites calls while it resolves
-    // names.
+    // The canonical text and the hash are made before the checker runs, since the checker rewrites calls while it
+    // resolves names.
     program->canonical = printModule(*program, syntax[0]);
     program->hash = hashMeaning(*program, syntax);
   }

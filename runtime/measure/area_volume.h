@@ -7,19 +7,20 @@
 namespace sgm::measure {
 
 struct AreaVolume {
-  /// The sum of half the lengths of the triangles' cross products (equation 7 of the paper, where it is printed as a
-  /// vector).
+  /// The sum of the triangles' areas, that is, of half the lengths of their cross products. In the paper, equation 7 is
+  /// printed without the lengths, as a vector.
   double area = 0;
-  /// Half the sum of the cross products. 0 for a closed surface, up to rounding; but 0 does not prove that it is
-  /// closed.
+  /// Half the sum of the triangles' cross products. For a closed surface it is 0, except for rounding; but an open
+  /// surface may have 0, too.
   Point area_vector;
-  /// By the divergence theorem: a sixth of the sum of the triple products, about `centre`. Exact for a closed mesh;
-  /// negative if its triangles face inward; overlapping parts count twice.
+  /// Volume by the divergence theorem: a sixth of the sum of the triple products of each triangle's corners, relative
+  /// to `centre`. Exact for a closed mesh; negative if its triangles face inward; where parts overlap, the overlap
+  /// counts twice.
   double volume = 0;
   Point low, high;  ///< bounding box of the triangles' corners; 0 if there is no triangle
   /// The origin of the triple products: the middle of low and high, so that a mesh far from the origin loses no
-  /// precision. About another origin o, an open mesh has volume + dot(centre - o, area_vector) / 3, and these values of
-  /// the parts of a closed surface add up to its volume.
+  /// precision. For another origin o, an open mesh has the volume `volume + dot(centre - o, area_vector) / 3`. If the
+  /// parts of a closed surface all use the same o, these volumes add up to the volume of the surface.
   Point centre;
 
   double volumeAbout(Point origin) const { return volume + dot(centre - origin, area_vector) / 3; }

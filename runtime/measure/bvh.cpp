@@ -135,7 +135,7 @@ std::vector<Bvh::Pair> Bvh::parts(size_t parts) const {
     std::vector<Pair> finer;
     bool whole = false;
     for (const Pair& pair : found) {
-      // All pairs are in the same row of the tree, so if one pair consists of leaves, all do.
+      // The nodes of all pairs are on the same level of the tree, so if one pair consists of leaves, all do.
       whole = isLeaf(pair.first);
       if (whole) break;
       std::array<Pair, 4> children;

@@ -47,7 +47,8 @@ class Bvh {
   /// returned pairs of nodes. Returns at least about `parts` pairs, if that many exist.
   std::vector<Pair> parts(size_t parts) const;
 
-  /// The state of a walk over the pairs of leaves under a pair of nodes, so that the walk can be resumed.
+  /// The state of a walk that visits the pairs of leaves below a pair of nodes. With this state, an interrupted walk
+  /// can be resumed.
   struct Walk {
     // Capacity: each row of the tree adds at most three waiting pairs.
     std::array<Pair, 3 * 32 + 4> waiting;

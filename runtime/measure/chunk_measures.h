@@ -14,16 +14,18 @@
 namespace sgm::measure {
 
 /// The kinds of defects of a part. In a body, all kinds are counted. A seam lies flat in its face, and is closed only
-/// together with the bodies beside it. There only `index` and `outside` are counted, and `degenerate` for corners that
-/// must not share a position. mesh/triangle_faults.h defines degenerate, flat, folded and cut.
+/// together with the bodies beside it. So in a seam, only three kinds are counted: `index`, `outside`, and `degenerate`
+/// for corners that must not share a position. mesh/triangle_faults.h defines degenerate, flat, folded and cut.
 enum class Defect : uint8_t {
   index,  ///< triangles with an index beyond the vertices; excluded from all other counts
   /// vertices beyond the chunk (feature vertices: more than two cells beyond); their triangles are excluded
   outside,
-  /// vertices that lie on no edge of the grid, share an edge with an earlier vertex, or are not in the order of the
+  /// vertices that lie on no grid edge, share a grid edge with an earlier vertex, or are not in the order of the grid
   /// edges
   misplaced,
-  unlike_samples,    ///< vertices on an edge whose end samples have equal signs, and crossed edges without a vertex
+  /// vertices on a grid edge whose end samples have equal signs, and grid edges with a change of sign but without a
+  /// vertex
+  unlike_samples,
   degenerate,        ///< triangles with two equal corners, by index (then excluded from other counts) or by position
   flat,              ///< triangles whose corners are three distinct points on a line
   duplicate,         ///< triangles with the same corners as an earlier triangle
@@ -31,8 +33,9 @@ enum class Defect : uint8_t {
   turned_edge,       ///< misoriented edges: two triangles use them in the same direction
   nonmanifold_edge,  ///< edges of more than two triangles
   pinched_vertex,    ///< non-manifold vertices: their triangles form more than one fan
-  folded,            ///< pairs of triangles that overlap at a common edge
-  self_intersection  ///< pairs of triangles that intersect or touch elsewhere (mesh/body_pairs.h)
+  folded,            ///< pairs of triangles with a common edge that also overlap beside it
+  self_intersection  ///< pairs of triangles without a common edge that meet at a point other than a common corner
+                     ///< (mesh/body_pairs.h)
 };
 inline constexpr size_t kDefects = 13;
 
@@ -46,8 +49,9 @@ using Defects = std::array<uint32_t, kDefects>;
 struct PartMeasures : PartSums {
   uint32_t vertices = 0;
   Defects defects{};
-  uint32_t slivers = 0;           ///< triangles of quality below 0.05, including flat ones
-  uint32_t against_gradient = 0;  ///< triangles with an area that face against the sum of their corners' normals
+  uint32_t slivers = 0;  ///< triangles of quality below 0.05, including flat ones
+  /// triangles of non-zero area whose front faces away from the sum of their corners' normals
+  uint32_t against_gradient = 0;
 
   friend bool operator==(const PartMeasures&, const PartMeasures&) = default;
   uint32_t defect(Defect kind) const { return defects[static_cast<size_t>(kind)]; }

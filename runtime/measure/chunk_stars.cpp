@@ -44,9 +44,10 @@ class StarCounter {
 
  private:
   static constexpr uint64_t kNobody = UINT64_MAX;
-  /// Packs an entry of StarScratch::seen.
+  /// Packs an entry of StarScratch::seen: the vertex for which it is made in the high half, an index in the low half.
   static uint64_t seenBy(uint32_t v, uint32_t place) { return uint64_t{v} << 32 | place; }
-  /// An edge from the current vertex: a node in the graph of the vertex's link.
+  /// An edge at the current vertex v, from v to `vertex`. It is a node in the graph of v's link; the root of `parent`
+  /// names the node's connected component.
   struct Node {
     uint32_t vertex, parent, out, in;
   };
@@ -65,8 +66,8 @@ class StarCounter {
     }
   }
 
-  /// Records the next vertex of each corner of a star (the triangles around v); returns true if no next vertex occurs
-  /// twice.
+  /// Records each corner of a star (the triangles around v) in seen_, under the corner's next vertex. Returns true if
+  /// no vertex is the next vertex of two corners.
   bool meet(uint32_t v, std::span<const Corner> star) {
     bool once = true;
     for (uint32_t i = 0; i < star.size(); ++i) {
@@ -77,8 +78,8 @@ class StarCounter {
     return once;
   }
 
-  /// True if the star is one closed fan in which each edge has two triangles that use it in opposite directions, the
-  /// usual case. Precondition: meet() returned true.
+  /// True if the star (the triangles around v) has the usual form: one closed fan, in which each edge at v has two
+  /// triangles that use it in opposite directions. Precondition: meet() returned true.
   bool isCycle(uint32_t v, std::span<const Corner> star) {
     if (star.size() < 3) return false;
     uint32_t at = 0;
@@ -91,11 +92,12 @@ class StarCounter {
     return false;
   }
 
-  /// True if the star is one open fan; then it also counts the two edges at its ends. Precondition: meet() returned
-  /// true.
+  /// True if the star (the triangles around v) is one open fan. In this case, also counts the two edges at the ends of
+  /// the fan. Precondition: meet() returned true.
   bool isPath(uint32_t v, std::span<const Corner> star) {
-    // The start is the only corner that no corner leads to: its index is the sum of all indices minus the
-    // sum of the indices of corners that another corner leads to.
+    // Walk over the fan from triangle to triangle: corner a is followed by the corner b whose next vertex is a's
+    // previous vertex. The first corner of the fan follows no other one. So its index is the sum of all indices minus
+    // the sum of the indices of the corners that follow another one.
     size_t start = star.size() * (star.size() - 1) / 2, matched = 0;
     for (const Corner& corner : star) {
       const uint64_t seen = seen_[corner.previous()];
@@ -110,7 +112,7 @@ class StarCounter {
       if (seen >> 32 != v) return false;
       at = static_cast<uint32_t>(seen);
     }
-    // The last corner leads to no other corner, so the walk has visited no corner twice.
+    // If a corner follows the last one, the walk has run into a cycle. Otherwise it has visited each corner once.
     if (seen_[star[at].previous()] >> 32 == v) return false;
     for (const uint32_t end : {star[start].next(), star[at].previous()}) {
       if (end > v) countOpen(v, end);
@@ -134,7 +136,7 @@ class StarCounter {
     return static_cast<uint32_t>(seen);
   }
 
-  /// Counts the defects of a star of any shape; returns the number of edges at v.
+  /// Counts the defects at vertex v, for any star (the triangles around v). Returns the number of edges at v.
   size_t countStar(uint32_t v, std::span<const Corner> star) {
     nodes_.clear();
     opposite_.clear();

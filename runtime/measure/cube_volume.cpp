@@ -33,8 +33,8 @@ struct Crossing {
   }
 };
 
-/// Returns the first and the last sample of a range that includes all samples with coordinates between `low` and
-/// `high`.
+/// Returns the first and the last sample of a range on one axis that includes all samples with coordinates between
+/// `low` and `high`.
 std::pair<size_t, size_t> samplesIn(double low, double high, double first, double edge, size_t count) {
   const double last = static_cast<double>(count - 1);
   const double a = std::clamp(std::floor((low - first) / edge), 0.0, last);
@@ -55,8 +55,8 @@ void crossingsOf(const std::array<Point, 3>& t, const Lattice& lattice, LargeVec
       const int turn = turnOver(t, x, y);
       if (turn == 0) continue;
       const double z = t[0].z - (normal.x * (x - t[0].x) + normal.y * (y - t[0].y)) / normal.z;
-      // Walking upwards, the column leaves the solid at a triangle that faces up. Nearly vertical triangles may give
-      // any z or NaN, so z is clamped to the triangle.
+      // The column is traversed upwards, so at a triangle that faces up it leaves the solid. A nearly vertical triangle
+      // may give any z or NaN, so z is clamped to the triangle's extent.
       crossings.push_back({i + lattice.nx * j, z > low_z ? std::min(z, high_z) : low_z, -turn});
     }
   }
@@ -75,7 +75,7 @@ LargeVector<uint64_t> insideOf(const Triangles& mesh, const Lattice& lattice) {
     int depth = 0;
     size_t k = 0;
     for (; c < crossings.size() && crossings[c].column == column; ++c) {
-      // A sample exactly on the surface counts as above the crossing.
+      // Process the samples below the crossing. A sample exactly at the crossing counts as above it.
       for (; k < lattice.nz && lattice.z(k) < crossings[c].z; ++k)
         if (depth > 0) bits[k / 64] |= uint64_t{1} << k % 64;
       depth += crossings[c].turn;

@@ -18,8 +18,8 @@ struct CubeVolumes {
 };
 
 inline constexpr uint64_t kMaxCubes = uint64_t{1} << 30;
-/// The maximum number of visits of columns of cubes, summed over triangles: each triangle visits the columns that it
-/// lies over. Only a densely folded surface needs more.
+/// Limits the work of cubeVolumes(). The work is the sum over all triangles of the number of columns of cubes that the
+/// triangle lies over. Only a densely folded surface exceeds this limit.
 inline constexpr uint64_t kMaxLooks = uint64_t{1} << 27;
 
 /// Counts cubes. They lie on a grid that starts `edge` before `low` and ends `edge` after `high`. A point is inside if

@@ -62,7 +62,8 @@ void addOfEdges(const Triangles& mesh, const Edges& edges, const Cut* cut, Place
     if (around.size() > 2) add(DefectKind::nonmanifold_edge);
     if (around.size() == 2 && beginOf(triangles, around[0]) == beginOf(triangles, around[1]))
       add(DefectKind::turned_edge);
-    // A duplicate is found at each of its three edges; only the edge opposite to its highest corner records it.
+    // A duplicate triangle is found at each of its three edges, but recorded only once: at the edge opposite to the
+    // corner with the highest number.
     for (size_t i = 1; i < around.size() && !places.full(DefectKind::duplicate); ++i) {
       const uint32_t apex = apexOf(triangles, around[i]);
       if (apex < beginOf(triangles, around[i]) || apex < endOf(triangles, around[i])) continue;

@@ -16,13 +16,13 @@ enum class DefectKind {
   turned_edge,       ///< a misoriented edge: two triangles use it in the same direction
   nonmanifold_edge,  ///< an edge of three triangles or more
   pinched_vertex,    ///< a non-manifold vertex, where several fans meet
-  degenerate,        ///< a triangle with two corners in one place
+  degenerate,        ///< a triangle with two corners at the same position
   flat,              ///< a triangle whose corners lie on a line
-  duplicate,         ///< a triangle that occurs twice
+  duplicate,         ///< a triangle with the same three vertices as another one
   inside_out,        ///< a closed shell that faces inward without being a cavity
   nested,            ///< a closed shell inside the solid of another shell
   folded,            ///< two triangles that overlap at a common edge
-  self_intersection  ///< two triangles that intersect or touch elsewhere
+  self_intersection  ///< two triangles that intersect, or touch at a place that is no common corner or edge
 };
 
 /// Returns the name of a kind in the output of --json and in the service.
@@ -45,9 +45,9 @@ struct Cut {
 /// Returns the number of open edges that lie in a face of the cutting box.
 uint64_t cutEdges(const Triangles& mesh, const Edges& edges, const Cut& cut);
 
-/// Returns at most kMaxExamples defects of each kind: those of the edges, triangles or shells with the lowest numbers.
-/// edges, parts, nesting: computed from this mesh. self_intersections: null if they were not searched. Takes time
-/// linear in the size of the mesh.
+/// Returns at most kMaxExamples defects of each kind: the ones at the edges, triangles or shells with the lowest
+/// numbers. edges, parts, nesting: computed from this mesh. self_intersections: null if they were not searched. Takes
+/// time linear in the size of the mesh.
 std::vector<DefectPlace> defectPlaces(const Triangles& mesh, const Edges& edges, const Shells& parts,
                                       const Nesting& nesting, const SelfIntersections* self_intersections,
                                       const Cut* cut);

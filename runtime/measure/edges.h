@@ -1,5 +1,5 @@
 #pragma once
-// The triangles that meet along each edge.
+// Finds, for each edge of a mesh, the triangles that meet along this edge.
 
 #include <cstdint>
 #include <span>
@@ -23,7 +23,7 @@ inline uint32_t endOf(std::span<const Triangle> triangles, HalfEdge half) {
 /// higher vertex; half edges of one edge by number. Triangles with a repeated corner have no half edges here.
 class Edges {
  public:
-  /// Precondition: at most 2^32 / 3 triangles. Takes about 12 bytes per half edge.
+  /// Precondition: at most 2^32 / 3 triangles. Uses about 12 bytes of memory per half edge.
   explicit Edges(const Triangles& mesh);
 
   size_t count() const { return start_.size() - 1; }

@@ -14,8 +14,8 @@ struct ExactSigns {
 
   static int orientation(Point a, Point b, Point c, Point d) { return measure::orientation(a, b, c, d); }
   static int orientationAlong(int drop, Point a, Point b, Point c) { return measure::orientationAlong(drop, a, b, c); }
-  /// Returns the axis along which the triangle's projection is largest, so that the sign is quick to determine; -1 if
-  /// the triangle is flat.
+  /// Returns the axis along which the triangle's projection has the largest area, because its exact sign is computed
+  /// fastest there; -1 if the triangle is flat.
   static int seenAlong(const std::array<Point, 3>& t) {
     const Point normal = asset::cross(t[1] - t[0], t[2] - t[0]);
     int best = 0;

@@ -44,8 +44,8 @@ class Distances {
 
   Nearest from(Point place, uint32_t guess) const { return nearestOf(to_, tree_, place, guess); }
 
-  /// Returns an upper bound of the distance for all points of a part: the distance changes by no more than a point
-  /// moves.
+  /// Returns an upper bound of the distance for all points of a part, given the triangle nearest to its middle. At any
+  /// other point of the part, the distance is larger by at most that point's distance from the middle.
   double atMost(const Part& part, const Nearest& of_middle) const {
     const Point middle = middleOf(part);
     double reach = 0;
@@ -90,7 +90,8 @@ struct Candidate {
   friend bool operator<(const Candidate& a, const Candidate& b) { return a.at_most < b.at_most; }
 };
 
-/// A quarter of a candidate. If its bound is low enough, the triangle nearest to its middle is not searched.
+/// A quarter of a candidate. The candidate's nearest triangle gives a first bound for the quarter. Only if this bound
+/// is not low enough, the triangle nearest to the quarter's middle is searched.
 struct Quarter {
   Candidate rest;
   double distance = -1;  ///< distance of its middle; -1 if it was not searched
@@ -101,7 +102,7 @@ struct Quarter {
 double refine(const Distances& distances, std::vector<Candidate> candidates, const HausdorffSettings& settings,
               JobSystem& jobs, Found& found) {
   std::priority_queue<Candidate> open({}, std::move(candidates));
-  double settled = found.at_least;  // the highest bound of the parts that will not be split any more
+  double settled = found.at_least;  // highest bound among the parts that will not be split any more
   uint64_t left = settings.refinements;
   std::vector<Candidate> cut;
   std::vector<std::array<Quarter, 4>> quarters(kRefinedTogether);

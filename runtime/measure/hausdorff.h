@@ -10,21 +10,23 @@ namespace sgm::measure {
 struct HausdorffSettings {
   /// Each triangle is divided into cuts^2 equal parts, each of which is sampled at its middle. 1..64
   uint32_t cuts = 2;
-  /// The search for the farthest point ends when the bounds of its distance are this close, in the mesh's unit. >= 0
+  /// The search for the farthest point ends when the bounds at_least and at_most of its distance differ by at most this
+  /// length, in the mesh's unit. >= 0
   double tolerance = 0;
-  /// The maximum number of parts that are split into four because they may contain the farthest point. The bounds of
-  /// the remaining parts enter at_most.
+  /// The maximum number of splits: a part that may contain the farthest point is split into four. After the last split,
+  /// at_most includes the bounds of the parts that could still contain it.
   uint64_t refinements = uint64_t{1} << 16;
 };
 
 /// The distances from points of one surface to the nearest points of the other surface.
 struct OneSided {
   uint64_t samples = 0;  ///< number of samples: vertices of triangles, and middles of their parts
-  /// Bounds of the largest distance: at_least was found at a point; at_most is not exceeded by any point, up to
-  /// rounding.
+  /// Bounds of the largest distance. at_least: a distance that was found at a point of the surface; at_most: no point
+  /// of the surface has a larger distance, up to rounding.
   double at_least = 0, at_most = 0;
-  double mean = 0, rms = 0;  ///< mean and root mean square of the samples at middles, weighted by area
-  Point farthest;            ///< the point at distance at_least
+  /// mean and root mean square of the distances at the middles of the triangles' parts, weighted by area
+  double mean = 0, rms = 0;
+  Point farthest;  ///< the point at distance at_least
 };
 
 struct Hausdorff {

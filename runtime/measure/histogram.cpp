@@ -16,7 +16,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kPrintedReach = kPi / (2 * (kPi + 1));
 
 struct Bend {
-  double angle = 0, edge = 0;  ///< angle: d (see histogram.h) in radians; edge: length |e|
+  double angle = 0, edge = 0;  ///< angle: the angle d of histogram.h, in radians; edge: |e|, the length of the mesh's
+                               ///< edge
 };
 
 /// Returns the angle and length of the edge from v1 to v2 with the normals n1 and n2 at its ends; nullopt if the edge
@@ -118,7 +119,8 @@ Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> norm
       c.flat += std::fabs(bend->angle) <= kFlatAngle;
       c.convex += bend->angle < -kFlatAngle;
       c.concave += bend->angle > kFlatAngle;
-      // Equation 14 of the paper. At the upper end of the range, v R equals R, which belongs to the last bin.
+      // Equation 14 of the paper. If the value v is 1, the upper end of its range, the equation gives bin R + 1; the
+      // clamp puts this edge into the last bin, R.
       const auto bin = static_cast<int32_t>(std::floor(valueOf(*bend, settings) * bins)) + 1;
       ++c.bins[static_cast<size_t>(std::clamp(bin, result.first_bin, last_bin) - result.first_bin)];
     }

@@ -26,8 +26,9 @@ uint8_t planesOfEdge(const Vertex& v) {
                               (v.z == kEnd) << 5);
 }
 
-/// Returns the border plane of the chunk in which the cell face of a face vertex (a feature vertex on a cell face)
-/// lies, as one bit (1 << Face); 0 if there is none. The vertex itself may be off the plane.
+/// A face vertex is a feature vertex that belongs to a cell face. If this cell face lies in a border plane of the
+/// chunk, returns the plane's bit (1 << Face); the vertex itself may lie off the plane. Returns 0 otherwise, also for
+/// any other kind of feature vertex.
 uint8_t planesOfFeature(const Vertex& v) {
   if ((v.kind & kFeatureOfCell) != 0) return 0;
   const int axis = v.kind >> 6 & 3, at = axis == 0 ? v.x : axis == 1 ? v.y : v.z;
@@ -121,7 +122,8 @@ class BodyMeasurer {
   }
 
   bool isOnCrossed(const SampleEdge& edge) const {
-    if (edge.axis == 2 && edge.z == kChunkCells) return false;  // a misplaced vertex, on a sample in the upper face
+    // a misplaced vertex: it lies exactly on a sample in the upper face, where no edge along z starts
+    if (edge.axis == 2 && edge.z == kChunkCells) return false;
     const auto row = static_cast<size_t>(edge.y) + kSide * static_cast<size_t>(edge.z);
     const uint64_t from = signs_[row] >> edge.x;
     const uint64_t to = edge.axis == 0   ? from >> 1
@@ -138,14 +140,16 @@ class BodyMeasurer {
       ++topology_.compared;
     }
     for (size_t row = 0; row < signs_.size(); ++row) crossed += crossedEdges(row);
-    // Each crossed edge has one vertex; a second vertex on the same edge was counted as misplaced.
+    // Counts the vertices on uncrossed edges, and the crossed edges without a vertex. A second vertex on one edge was
+    // already counted as misplaced, so no crossed edge has two here.
     count(Defect::unlike_samples) = topology_.compared - on_crossed + (crossed > on_crossed ? crossed - on_crossed : 0);
   }
 
   void addTriangles() {
     indices_.resize(3 * size_t{part_.triangles});
     scratch_.corners.resize(3 * size_t{part_.triangles});
-    // Sums go to a local variable: it cannot alias the data that is read, so the compiler keeps it in registers.
+    // Sums are accumulated in a local variable: it cannot alias the data that is read, so the compiler keeps it in
+    // registers.
     TermSums sums;
     uint32_t against = 0, flat = 0, degenerate = 0;
     uint32_t* kept = indices_.data();

@@ -13,7 +13,7 @@
 
 namespace sgm::measure {
 
-/// A part's vertices and triangles. Indices count from first_vertex.
+/// A view of a part's vertices and triangles. The triangles' indices are relative to first_vertex.
 struct PartView {
   std::span<const Vertex> vertices;
   std::span<const uint32_t> indices;
@@ -26,13 +26,15 @@ PartView viewOf(const PackedMesh& mesh, size_t part);
 /// thread-safe.
 struct MeasureScratch {
   StarScratch stars;
-  /// by vertex: bit (1 << Face) is set if the vertex lies in that border plane; the higher bits are for internal use
+  /// for each vertex: bit (1 << Face) is set if the vertex lies in that border plane of the chunk; the higher bits are
+  /// for internal use
   std::pmr::vector<uint8_t> planes;
   std::pmr::vector<PackedDirection> directions;  ///< unpacked normal of each vertex
   std::pmr::vector<uint32_t> indices;            ///< corners of the triangles that are not excluded
-  std::pmr::vector<uint32_t> first, table;       ///< `first`: first copy of each vertex; `table`: hash table to find
-                                                 ///< copies
-  std::pmr::vector<PairCorner> corners;          ///< corners of the triangles that have an area, three per triangle
+  /// splitCreases() copies vertices. `first`: for each vertex, the first copy of the same vertex; `table`: the hash
+  /// table with which the copies are found
+  std::pmr::vector<uint32_t> first, table;
+  std::pmr::vector<PairCorner> corners;  ///< corners of the triangles that have an area, three per triangle
   PairScratch pairs;
 
   explicit MeasureScratch(std::pmr::memory_resource* memory)
@@ -46,7 +48,7 @@ struct MeasureScratch {
         pairs(memory) {}
 };
 
-/// Measures the body into parts[0] and topology. signs: of its samples (ChunkSamples::signs); empty: vertices
+/// Measures the body into parts[0] and topology. signs: ChunkSamples::signs of the body's samples; if empty, vertices
 /// are not compared with samples. Precondition: fewer than 2^20 triangles, so that no sum can overflow. Takes about 35
 /// ns per triangle. Throws std::bad_alloc.
 void measureBody(const PartView& body, std::span<const uint64_t> signs, MeasureScratch& scratch,

@@ -14,8 +14,8 @@ bool measurable(Point p) {
   return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest;
 }
 
-/// Counts the triangles with a corner that cannot be measured. If there are any, returns all other triangles; otherwise
-/// returns an empty vector.
+/// Counts the triangles with a corner that cannot be measured (NaN, or beyond kFarthest). Returns all other triangles
+/// if there are any such triangles; otherwise an empty vector, since the mesh can be used as it is.
 LargeVector<Triangle> finiteOf(const Triangles& mesh, MeshMeasures& result) {
   LargeVector<uint8_t> used(mesh.points.size(), mesh.memory);
   const auto good = [&](const Triangle& t) {
@@ -33,7 +33,8 @@ LargeVector<Triangle> finiteOf(const Triangles& mesh, MeshMeasures& result) {
   return kept;
 }
 
-/// Converts numbers of triangles in the result to numbers in `mesh`, after finiteOf() has excluded some triangles.
+/// Converts triangle numbers in the result. If finiteOf() has excluded triangles, the result numbers only the remaining
+/// ones; afterwards it has their numbers in `mesh`.
 void numberAsGiven(const Triangles& mesh, MeshMeasures& result) {
   LargeVector<uint32_t> given(mesh.memory);
   for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {

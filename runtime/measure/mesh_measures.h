@@ -54,13 +54,14 @@ struct MeshMeasures {
   /// True if every edge has two triangles that use it in opposite directions, every vertex has one fan, and no triangle
   /// occurs twice or has a repeated corner. Also true for a mesh without triangles.
   bool watertight() const { return identity.closed() && non_finite == 0; }
-  /// True if the mesh is the surface of a solid: watertight, facing outward, covering each place once, without
-  /// triangles that have no area or that intersect (if that was requested), and completely examined. Also true for a
-  /// mesh without triangles.
+  /// True if the mesh is the surface of a solid. Then it is watertight and faces outward; no shell lies in the solid of
+  /// another shell, except cavities; no triangle is without area; no two triangles intersect (if this test was
+  /// requested); and everything was completely examined. Also true for a mesh without triangles.
   bool valid() const;
-  /// True if the mesh is valid except for open edges in the faces of the cutting box. True if valid().
+  /// True if the mesh is valid, or if its only defects are open edges in the faces of the cutting box.
   bool validButForCut() const;
-  /// True if the volume counts some parts several times, or with the wrong sign.
+  /// True if the volume counts some parts several times or with the wrong sign, because shells are nested, face inward
+  /// or intersect.
   bool overlaps() const {
     return nesting.nested > 0 || nesting.inside_out > 0 || (self_intersections && self_intersections->pairs > 0);
   }

@@ -17,9 +17,9 @@ struct Nearest {
   uint32_t triangle = 0;
 };
 
-/// Finds the nearest point of a mesh. tree: of the same triangles, of which there is at least one. guess: any triangle;
-/// the nearer it is, the sooner the search ends. It also decides which of several equally near points is returned.
-/// Pure.
+/// Finds the point of a mesh that is nearest to `to`. tree: the tree of the mesh's triangles; there must be at least
+/// one triangle. guess: any triangle; the nearer it is, the sooner the search ends. It also decides which of several
+/// equally near points is returned. Pure.
 Nearest nearestOf(const Triangles& mesh, const Bvh& tree, Point to, uint32_t guess = 0);
 
 }  // namespace sgm::measure

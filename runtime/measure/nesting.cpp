@@ -12,8 +12,8 @@ namespace {
 
 /// True if the shell has an inside: only such shells can surround a point with solid.
 bool bounds(const Shell& shell) { return shell.closed() && shell.manifold; }
-/// True if the shell is open and manifold: a cut may have opened it, so that it separates solid from void within the
-/// cutting box.
+/// True if the shell is open and manifold. A cut through a larger mesh may have opened it; within the cutting box, the
+/// shell still separates solid from void.
 bool boundsUpToCut(const Shell& shell) { return !shell.closed() && shell.manifold; }
 
 /// Returns the z at which a triangle crosses the vertical line through a point.
@@ -24,7 +24,7 @@ double heightAt(const std::array<Point, 3>& t, Point at) {
   return height >= low ? std::min(height, high) : low;
 }
 
-/// Where a point lies relative to an open shell: unknown, on the side of the solid, or on the side of the void.
+/// On which side of the nearest open shell a point lies: not known, in the solid, or in the void (in_open).
 enum class BesideCut : uint8_t { unknown, in_solid, in_open };
 
 /// Permutes coordinates cyclically so that `axis` becomes z. The orientation of triangles does not change.
@@ -32,9 +32,9 @@ Point turned(Point p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3], 
 
 constexpr int kColumns = 6;
 
-/// Finds the nearest open shell above a point, and returns on which side of it the point lies. If there is no open
-/// shell above, or the line only touches it, searches below the point, then along the other axes. nullopt if one of
-/// these searches would visit more than max_steps nodes of the tree.
+/// Returns on which side of the nearest open shell above it a point lies. If there is no open shell above, or the line
+/// only touches it, searches below the point, then along the other axes. nullopt if one of these searches would visit
+/// more than max_steps nodes of the tree.
 std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const Shells& parts, Point at,
                                    uint64_t max_steps) {
   for (int number = 0; number < kColumns; ++number) {
@@ -42,7 +42,8 @@ std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const
     const int away = column.above ? 1 : -1;
     const Point place = turned(at, column.axis);
     double nearest = std::numeric_limits<double>::infinity();
-    // at the nearest crossing: triangles that face away from the point minus those that face it
+    // At the crossing nearest to the point: the number of triangles that face away from the point, minus the number
+    // that face towards it.
     int facing = 0;
     const bool ended = tree.visitColumn(at, column, max_steps, [&](uint32_t triangle) {
       const uint32_t shell = parts.of_triangle[triangle];
@@ -66,7 +67,8 @@ std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const
 
 std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells& parts, uint32_t all_but, Point at,
                            uint64_t max_steps) {
-  // Far above, there is only empty space. So each triangle above the point that faces up is the upper end of a solid.
+  // The depth is 0 far above the mesh. So, from the top down to the point, each triangle that faces up enters a solid,
+  // and each triangle that faces down leaves one.
   int depth = 0;
   const bool ended = tree.visitColumn(at, {}, max_steps, [&](uint32_t triangle) {
     const uint32_t shell = parts.of_triangle[triangle];
@@ -84,7 +86,8 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, b
   constexpr size_t kTogether = 16;
   const size_t shells = parts.shells.size(), blocks = (shells + kTogether - 1) / kTogether;
   const uint64_t share = shells > 0 ? max_steps / shells / (is_cut ? 1 + kColumns : 1) + 1 : 0;
-  // If no shell is open, the space around all shells is the same. It is void if one of the shells faces outward.
+  // True if the space around all shells is known to be void. This is the case if two conditions hold: no shell is open,
+  // so that one common space surrounds all shells; and one shell faces outward, so that this space is void.
   const bool is_open = std::any_of(parts.shells.begin(), parts.shells.end(),
                                    [](const Shell& shell) { return bounds(shell) && shell.volume > 0; }) &&
                        std::none_of(parts.shells.begin(), parts.shells.end(), boundsUpToCut);

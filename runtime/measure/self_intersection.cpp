@@ -19,8 +19,9 @@ SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint
   for (const Bvh::Pair& pair : tree.parts(kParts)) parts.push_back({Bvh::Walk(pair), {}, 0});
   std::mutex mutex;
   uint64_t done = 0;
-  // Parts of the search that need fewer steps than their share leave the remaining steps to the other parts in the next
-  // round. So the result does not depend on the speed of threads.
+  // The search works in rounds. In each round, every unfinished part of the search gets an equal share of the remaining
+  // steps. The unused steps of a part go to the others in the next round, so the result does not depend on the speed of
+  // threads.
   uint64_t left = max_steps;
   for (;;) {
     std::vector<Part*> open;

@@ -19,7 +19,8 @@ struct SelfIntersections {
   uint64_t folded = 0;  ///< number of these pairs that fold, that is, overlap at an edge
   /// False if the search stopped after its maximum number of steps, because too many triangles lie close together.
   bool complete = true;
-  /// Examples of pairs, the lower number first: at most kMaxExamples that fold, and at most as many that cut.
+  /// Examples, as pairs of triangle numbers, the lower number first. folded_examples: at most kMaxExamples pairs that
+  /// fold; examples: at most kMaxExamples pairs that cut.
   std::vector<std::pair<uint32_t, uint32_t>> folded_examples, examples;
 
   uint64_t cuts() const { return pairs - folded; }
@@ -28,9 +29,10 @@ struct SelfIntersections {
 /// Receives progress notices. Calls come from any thread, never concurrently, with ascending `done`.
 using MeasureProgress = std::function<void(uint64_t done, uint64_t total)>;
 
-/// Finds all pairs of triangles that intersect. Exact (triangle_pair.h). tree: of the same triangles. max_steps: the
-/// maximum number of visits of two nodes of the tree plus tests of two triangles. A pair that intersects counts
-/// kStepsAPair, to end the search early in a large heap of intersecting triangles. The same for any number of threads.
+/// Finds all pairs of triangles that intersect. Exact (triangle_pair.h). tree: a tree of the same triangles. max_steps
+/// limits the work. A visit of two nodes of the tree is one step, and so is a test of two triangles. A pair that
+/// intersects counts as kStepsAPair steps, so that the search ends early in a large heap of intersecting triangles. The
+/// result is the same for any number of threads.
 SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t max_steps, JobSystem& jobs,
                                     const MeasureProgress& progress = {});
 

@@ -30,7 +30,7 @@ uint64_t objectsOf(const Triangles& mesh) {
 
 std::optional<uint64_t> Shell::genus() const {
   if (!manifold) return std::nullopt;
-  // For an oriented surface, V - E + F = 2 - 2 genus - borders.
+  // For a connected, oriented surface, the Euler characteristic V - E + F is 2 - 2 genus - borders.
   return static_cast<uint64_t>(2 - static_cast<int64_t>(borders) - euler()) / 2;
 }
 
@@ -81,7 +81,7 @@ Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
       shell.manifold = false;
     }
   }
-  // Most meshes have no border; then nothing is allocated.
+  // A mesh without a border, the usual case, needs no memory here.
   const size_t border_fans = border_halves.empty() ? 0 : fans.size();
   UnionFind borders(border_fans, mesh.memory);
   for (const HalfEdge half : border_halves) borders.join(fans.rootOf(half), fans.rootOf(nextHalf(half)));

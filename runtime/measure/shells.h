@@ -15,8 +15,8 @@ struct Shell {
   uint64_t triangles = 0;
   uint64_t edges = 0;
   uint64_t vertices = 0;      ///< number of vertices; a vertex counts once for each of its fans in this shell
-  uint64_t border_edges = 0;  ///< edges of only one triangle
-  uint64_t borders = 0;       ///< closed loops of border edges
+  uint64_t border_edges = 0;  ///< number of edges that belong to only one triangle
+  uint64_t borders = 0;       ///< number of closed loops that the border edges form
   uint32_t first = 0;         ///< lowest triangle number of the shell
   /// True if every edge has one triangle, or two that use it in opposite directions, and if no two fans share a vertex,
   /// not even two fans of different shells.
@@ -34,7 +34,7 @@ struct Shell {
 };
 
 struct Shells {
-  std::vector<Shell> shells;  ///< sorted by descending number of triangles; ties by lowest triangle
+  std::vector<Shell> shells;  ///< sorted by descending number of triangles; among equals, by Shell::first
   /// "Independent objects", section 7.3 of the paper: groups of triangles connected through vertices. Two cubes that
   /// touch at a corner are one object and two shells.
   uint64_t objects = 0;
@@ -49,8 +49,9 @@ inline constexpr uint32_t kNoShell = 0xFFFFFFFFu;
 /// The maximum number of examples that are listed for a defect. More would not help a reader.
 inline constexpr size_t kMaxExamples = 16;
 
-/// Finds the shells of a mesh. edges: of the same triangles. centre: see Shell::volume. Triangles with a repeated
-/// corner belong to no shell, but connect objects.
+/// Finds the shells of a mesh. edges: the edges of the same triangles. centre: see Shell::volume. A triangle with a
+/// repeated corner belongs to no shell; but shells that it touches count as connected, so they are one object
+/// (Shells::objects).
 Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre);
 
 }  // namespace sgm::measure

@@ -6,8 +6,9 @@
 
 namespace sgm::measure {
 
-/// Tests two triangles. Their corners are common if they have the same index: equal points must have been merged before
-/// (weld_points.h), or they count as touching. Triangles without area neither fold nor cut.
+/// Tests two triangles. A corner is common to both if it has the same index in both, so points at equal positions must
+/// have been merged before (weld_points.h); otherwise they count as touching. A triangle without area neither folds
+/// onto nor cuts another one.
 PairFault pairFault(std::span<const Point> points, Triangle a, Triangle b);
 inline bool meetWrongly(std::span<const Point> points, const Triangle& a, const Triangle& b) {
   return pairFault(points, a, b) != PairFault::none;
@@ -15,8 +16,8 @@ inline bool meetWrongly(std::span<const Point> points, const Triangle& a, const 
 
 /// Same as the function above, for positions: corners are common if their positions are equal.
 PairFault pairFault(std::array<Point, 3> a, std::array<Point, 3> b);
-/// True if an edge of one triangle has its ends on both sides of the other triangle's plane, and passes through its
-/// interior.
+/// True if an edge of one triangle pierces the other triangle: its ends lie on both sides of the other triangle's
+/// plane, and it passes through the other triangle's interior.
 bool pierce(const std::array<Point, 3>& a, const std::array<Point, 3>& b);
 
 inline bool hasCornerTwice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }

@@ -23,8 +23,8 @@ struct Triangles {
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
 };
 
-/// The maximum magnitude of coordinates. Up to it, coordinates fit into a float (Bvh::Box), and their products into a
-/// double.
+/// The maximum magnitude of coordinates. Such coordinates fit into a float (Bvh::Box), and products of several of them
+/// into a double.
 inline constexpr double kFarthest = 1e37;
 
 /// The number of triangles per job. Sums are computed per block and added in the order of blocks, so that their last

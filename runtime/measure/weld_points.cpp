@@ -23,14 +23,15 @@ uint64_t mixed(uint64_t h) {
 
 uint64_t hashOf(const Cell& cell) { return mixed(cell.x + mixed(cell.y + mixed(cell.z + 0x2545F4914F6CDD1Du))); }
 
-/// A hash table with open addressing, at most half full, that maps a cell to the head of the list of its kept points.
+/// A hash table from a grid cell to the first of the kept points in it, the head of a linked list. Uses open
+/// addressing; at most half full.
 class Cells {
  public:
   Cells(size_t points, std::pmr::memory_resource* memory)
       : slots_(std::bit_ceil(std::max<size_t>(2 * points, 16)), kNone, memory) {}
 
-  /// Returns the slot of a cell, or the empty slot where it is to be inserted. cellOf: returns the cell of a kept
-  /// point.
+  /// Returns the slot of a grid cell; if the table does not contain the cell, the empty slot in which to insert it.
+  /// cellOf: returns the cell of a kept point.
   template <class CellOf>
   uint32_t& slot(const Cell& cell, CellOf&& cellOf) {
     size_t at = hashOf(cell) & (slots_.size() - 1);
@@ -52,7 +53,8 @@ Point gridOf(Point p, double edge) { return {std::floor(p.x / edge), std::floor(
 
 class Welder {
  public:
-  /// Reserves memory for all points: unused pages cost nothing, whereas a growing array would be copied.
+  /// Reserves memory for the case that no two points merge. Reserved pages that stay unused cost nothing, whereas an
+  /// array that grows would be copied.
   Welder(size_t points, double tolerance, std::pmr::memory_resource* memory)
       : tolerance_(tolerance), cells_(points, memory), kept_(memory), next_(memory) {
     kept_.reserve(points);
@@ -93,14 +95,15 @@ class Welder {
   double tolerance_;
   Cells cells_;
   LargeVector<Point> kept_;
-  LargeVector<uint32_t> next_;  ///< by kept point: the next kept point of the same cell; empty without a tolerance
+  /// for each kept point: the next kept point in the same grid cell; empty without a tolerance
+  LargeVector<uint32_t> next_;
 };
 
 }  // namespace
 
 WeldedPoints weldPoints(const Triangles& mesh, double tolerance) {
-  // A tolerance below the rounding error of the farthest point counts as 0, because cells of that size could not be
-  // told apart there.
+  // A tolerance below the rounding error of the largest coordinate is replaced by 0: at that coordinate, a double
+  // cannot tell neighbouring grid cells of this size apart.
   double farthest = 0;
   for (const Point& p : mesh.points) {
     for (const double v : {p.x, p.y, p.z})

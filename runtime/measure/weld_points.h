@@ -16,11 +16,11 @@ struct WeldedPoints {
 };
 
 /// Merges points. tolerance 0: points with equal coordinates (0 and -0 are equal) are merged. tolerance above 0
-/// (finite): each point, in order, is merged into the first kept point at most that far away; below the rounding error
-/// of the mesh's largest coordinate, it counts as 0. Equal coordinates are the
-/// right rule for generated files: this library's meshes have distinct vertices a 128th of a cell apart, which the
-/// usual tolerance, a millionth of the diagonal, would merge in a region of a kilometre. Precondition: the coordinates
-/// of points that triangles use are finite. Unused points are dropped.
+/// (finite): each point, in order, is merged into the first kept point at most that far away. A tolerance below the
+/// rounding error of the mesh's largest coordinate counts as 0. For the files that this library generates, use 0: their
+/// vertices may be only a 128th of a cell apart, and the usual tolerance, a millionth of the diagonal, would merge such
+/// vertices in a region of a kilometre. Precondition: the coordinates of points that triangles use are finite. Unused
+/// points are dropped.
 WeldedPoints weldPoints(const Triangles& mesh, double tolerance = 0);
 
 }  // namespace sgm::measure

@@ -43,7 +43,8 @@ class Joiner {
   static bool isInBorder(const FaceName& face) {
     return face.cell[face.axis] == 0 || face.cell[face.axis] == kChunkCells;
   }
-  /// Returns the corner of the grid at which the edges of vertices a and b meet. Precondition: they are not parallel.
+  /// Returns the grid corner at which the edge of vertex a meets the edge of vertex b. Precondition: the two edges are
+  /// not parallel.
   Int3 cornerBetween(uint32_t a, uint32_t b) const {
     const VertexKey &of_a = body_.keys[a], &of_b = body_.keys[b];
     Int3 corner = of_a.corner;
@@ -51,7 +52,7 @@ class Joiner {
     return corner;
   }
 
-  /// Returns the ambiguous faces within the chunk that a crease passes through, sorted by FaceName.
+  /// Returns the ambiguous faces inside the chunk through which a crease passes, sorted by FaceName.
   std::pmr::vector<AmbiguousFace> ambiguousFaces() const {
     std::pmr::vector<AmbiguousFace> faces(memory_);
     for (const SurfaceLoop& loop : loops_.body().all()) {
@@ -68,9 +69,9 @@ class Joiner {
     return faces;
   }
 
-  /// Returns the cell face that contains the segment of a loop from vertex a to vertex b, if the face is ambiguous: a
-  /// second segment of the cell's loops lies in it, too. nullopt if the face is not ambiguous, or lies in a face of the
-  /// chunk.
+  /// Returns the cell face that contains the loop side from vertex a to vertex b, if this face is ambiguous: a second
+  /// loop side lies in it, of this loop or of another loop of the cell. Returns nullopt if the face is not ambiguous,
+  /// or if it lies in a face of the chunk.
   std::optional<AmbiguousFace> ambiguousFace(const SurfaceLoop& loop, uint32_t a, uint32_t b) const {
     const FaceName name = loops_.faceOf(loop, a, b);
     if (isInBorder(name)) return std::nullopt;
@@ -121,9 +122,9 @@ class Joiner {
     return at != border_.end() && !(side < *at) && !at->places.empty() ? &*at : nullptr;
   }
 
-  /// Returns the triangles of a loop as a rounded loop, that is, without sharp features inside the chunk
-  /// (mesh/sharp_loops.h): a fan if the loop has face vertices in a face of the chunk, otherwise the triangles that
-  /// marching cubes makes for the loop.
+  /// Returns the triangles of a loop without sharp features inside the chunk (a "rounded" loop, mesh/sharp_loops.h). If
+  /// the loop has face vertices in a face of the chunk, its triangles are a fan. Otherwise, they are the triangles of
+  /// marching cubes.
   LoopTriangles roundedTriangles(const Int3& cell, const CellLoop& loop) const {
     std::array<FanPoint, kLongestBodyLoop*(1 + FacePlaces::kMost)> ring;
     std::array<BorderVertex, kLongestBodyLoop * FacePlaces::kMost> at_border;
@@ -189,8 +190,8 @@ class Joiner {
           if (const Int3 other{x, y, z}; !(other == cell)) visit(other);
   }
 
-  /// True if the triangles of a cell's loops intersect neither each other nor those of the cells around it. A cell
-  /// without a joined ambiguous face needs no test: the loops of marching cubes never intersect.
+  /// True if the triangles of the cell's loops intersect neither each other nor triangles of the cells around it. A
+  /// cell without joined ambiguous faces needs no test: its loops are those of marching cubes, which never intersect.
   bool isSound(const Int3& cell) const {
     if (!loops_.isJoinedAt(cell)) return true;
     const CellLoops of_cell = loops_.loopsOf(cell);
@@ -205,9 +206,10 @@ class Joiner {
     return isClearOfOthers(cell, of_cell, made);
   }
 
-  /// True if the loops of a cell do not intersect those of the cells around it. Only loops with face vertices in a face
-  /// of the chunk need a test, because these vertices may lie in the next cell. Such a loop may meet any loop of an
-  /// adjacent cell, and, two cells away, loops that have such face vertices, too.
+  /// True if the loops of a cell do not intersect the loops of the cells around it. Only a loop with face vertices in a
+  /// face of the chunk can reach out of its cell, because these vertices may lie in the adjacent cell. So this function
+  /// compares two adjacent cells only if one of them has such a loop, and two cells at a distance of two only if both
+  /// have one.
   bool isClearOfOthers(const Int3& cell, const CellLoops& of_cell, std::span<const LoopTriangles> made) const {
     if (border_cells_.empty() || !isNearBorder(cell)) return true;
     const bool has_own = hasBorderVertices(cell);
@@ -219,7 +221,7 @@ class Joiner {
       if (!is_clear || !(is_beside ? has_own || has_others : has_own && has_others)) return;
       const CellLoops others = loops_.loopsOf(other);
       for (const CellLoop& loop : others.loops()) {
-        // A loop without a valid triangulation is detected when isSound() tests its own cell.
+        // Skip a loop that has no valid triangulation: isSound() finds that fault when it tests the loop's own cell.
         if (!loop.canTriangulate()) continue;
         const LoopTriangles theirs = roundedTriangles(other, loop);
         for (size_t i = 0; i < of_cell.count; ++i) is_clear = is_clear && !anyMeets(made[i], theirs);
@@ -228,7 +230,8 @@ class Joiner {
     return is_clear;
   }
 
-  /// Undoes the joining of the solid corners of faces, one face after the other, until isSound() is true for all cells.
+  /// Makes isSound() true for all cells: while it is false for some cell, separates the solid corners of one more
+  /// joined face.
   void giveUpFaulty() {
     std::pmr::vector<Int3> left(memory_);  // stack of the cells to be tested
     const std::span<const AmbiguousFace> faces = loops_.faces();
@@ -254,8 +257,8 @@ class Joiner {
     });
   }
 
-  /// Undoes the joining of one face of a cell, and returns the name of the face: the first joined face without which
-  /// isSound() is true, or else the first joined face.
+  /// Separates one of the cell's joined ambiguous faces again, and returns the name of this face. Chooses the first
+  /// joined face for which isSound(cell) becomes true; if there is none, the first joined face.
   FaceName giveUpOne(const Int3& cell) {
     std::optional<FaceName> first;
     for (const FaceName& name : FaceName::of(cell)) {

@@ -17,10 +17,10 @@
 namespace sgm {
 
 /// Returns the body's triangles (three indices each) after the field has resolved its ambiguous faces; nullopt if no
-/// triangle changes. The result for a face is the same in the two cells that share it. An ambiguous face is left as
-/// marching cubes made it if it lies in a face of the chunk, if the new loops of a cell beside it cannot be
-/// triangulated, or if their triangles would intersect others (mesh/triangle_faults.h). Loops with face vertices in
-/// faces of the chunk are tested with these vertices.
+/// triangle changes. The result for a face is the same in the two cells that share it. An ambiguous face stays as
+/// marching cubes made it in three cases: it lies in a face of the chunk; the new loops of a cell beside it cannot be
+/// triangulated; or their triangles would intersect others (mesh/triangle_faults.h). Loops with face vertices in faces
+/// of the chunk are tested with these vertices.
 ///
 /// Pure. creases: holds the tangents of all vertices of the body; settle() has been called. border: the result of
 /// borderSides() for the body. Samples the field only within the chunk. Throws std::bad_alloc.

@@ -25,8 +25,8 @@ RowEdges crossedEdges(const uint64_t* signs, size_t y, size_t z) {
           z < kChunkCells ? row[0] ^ row[kSide] : 0};
 }
 
-/// The result of the first pass: the numbers of vertices and triangles, and the marching-cubes cases of the cells that
-/// the surface passes through, in canonical order.
+/// The result of the first pass over the samples: the numbers of vertices and of triangles, and the marching-cubes
+/// cases of the cells that the surface crosses, in canonical order.
 struct Census {
   size_t vertices = 0;
   size_t triangles = 0;
@@ -39,7 +39,7 @@ void takeCensus(const uint64_t* signs, Census& census) {
     for (size_t y = 0; y < kSide; ++y) {
       const RowEdges e = crossedEdges(signs, y, z);
       if ((e.x | e.y | e.z) == 0) continue;
-      // Packs the 32 + 33 + 33 bits of x, y and z into two words, so that two calls of popcount suffice.
+      // Packs the 32 + 33 + 33 bits of x, y and z into two words of 64 bits, so that two calls of popcount suffice.
       census.vertices += static_cast<size_t>(std::popcount(e.x | e.y << 32) + std::popcount(e.z | e.y >> 32 << 33));
     }
   }
@@ -62,14 +62,15 @@ void takeCensus(const uint64_t* signs, Census& census) {
   }
 }
 
-/// The number of the vertex on each crossed edge, indexed by the sample at which the edge starts and by the edge's
-/// axis. Holds the two planes of samples around one layer of cells.
+/// The numbers of the vertices on crossed edges, indexed by the sample at which an edge starts and by the edge's axis.
+/// Stored for two planes of samples: those below and above the current layer of cells.
 struct EdgeNumbers {
   uint32_t of[2][kPlane * 3];
 };
 
-/// For each edge of a cube: the offset in EdgeNumbers of its vertex number from the entry of the cell's lowest sample.
-/// The two planes swap roles from layer to layer, so even and odd layers have different offsets.
+/// For each edge of a cube: the offset of its vertex number in EdgeNumbers, from the entry of the cell's lowest sample.
+/// There is one set of offsets for even layers of cells and one for odd layers, because the two planes in EdgeNumbers
+/// swap their roles with each layer.
 struct EdgeOffsets {
   int32_t of[2][kCubeEdges];
 };
@@ -88,8 +89,8 @@ constexpr EdgeOffsets makeEdgeOffsets() {
 }
 constexpr EdgeOffsets kEdgeOffsets = makeEdgeOffsets();
 
-/// Writes the vertices on the crossed edges that start in plane z of the samples, and stores their numbers in
-/// `numbers`.
+/// Writes the vertices on the crossed edges that start in plane z of the samples, numbered from `number`, and stores
+/// the numbers in `numbers`. Returns the next free number.
 uint32_t writeVertices(const ChunkSamples& samples, const ChunkGrid& grid, size_t z, uint32_t number, MeshPart& part,
                        uint32_t* numbers) {
   const int32_t corner_z = grid.origin.z + static_cast<int32_t>(z) * grid.cell;

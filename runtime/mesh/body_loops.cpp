@@ -34,7 +34,8 @@ Int3 BodyLoops::cornerOf(const Int3& cell) const {
   return corner;
 }
 
-/// Returns the cell of a triangle: the only cell that has the edges of all three corners.
+/// Returns the cell that contains a triangle. The triangle's corners lie on three grid edges; only one cell has all
+/// three.
 Int3 BodyLoops::cellOf(size_t first_index) const {
   Int3 cell;
   for (int axis = 0; axis < 3; ++axis) {

@@ -44,7 +44,7 @@ class BodyLoops {
   const ChunkGrid& grid() const { return grid_; }
   const MeshPart& part() const { return part_; }
   const std::pmr::vector<SurfaceLoop>& all() const { return loops_; }
-  /// Calls visit(number) for the loops of all cells lo <= cell <= hi.
+  /// Calls visit(number) for each loop of the cells lo <= cell <= hi. number: index of the loop.
   template <class Visit>
   void visitWithin(Int3 lo, Int3 hi, const Visit& visit) const {
     for (int axis = 0; axis < 3; ++axis) {
@@ -64,8 +64,8 @@ class BodyLoops {
   Int3 cornerOf(const Int3& cell) const;
 
  private:
-  /// Number of pieces of each row of cells. starts_ has one entry per piece, so that the loops of a cell are found
-  /// fast.
+  /// Each row of cells is divided into this number of pieces. starts_ has one entry per piece, so that the loops of a
+  /// cell are found fast.
   static constexpr int32_t kPieces = 4;
   static size_t pieceOf(const Int3& cell) {
     return static_cast<size_t>((cell.z * kChunkCells + cell.y) * kPieces + cell.x / (kChunkCells / kPieces));
@@ -77,7 +77,8 @@ class BodyLoops {
   const ChunkGrid grid_;
   const MeshPart& part_;
   std::pmr::vector<SurfaceLoop> loops_;
-  std::pmr::vector<uint32_t> starts_;  ///< by piece of a row: index in loops_ of its first loop; one more at the end
+  std::pmr::vector<uint32_t> starts_;  ///< for each piece (kPieces) of each row of cells: index in loops_ of the
+                                       ///< piece's first loop; the last entry is the end of loops_
 };
 
 }  // namespace sgm

@@ -67,8 +67,8 @@ class PairCounter {
       last = triangle.home;
     }
     if (sorted) return;
-    // In a body that another program made, the triangles of a cell need not be consecutive. Then all triangles count as
-    // wide, and each is compared with all triangles near it.
+    // The triangles are not sorted by cell: another program has made this body. Then all triangles count as wide, and
+    // each is compared with all triangles near it.
     wide_ = count;
     for (PairTriangle& triangle : triangles_) triangle.wide = true;
   }
@@ -88,8 +88,8 @@ class PairCounter {
     }
   }
 
-  /// Returns the range of cells that the triangle's bounding box enters. A cell whose low face the box only touches
-  /// from below does not count.
+  /// Returns the range of cells that the triangle's bounding box enters. If the box ends exactly at the low face of a
+  /// cell, that cell does not count.
   void cellsOf(const PairTriangle& triangle, Cell& low, Cell& high) const {
     for (size_t axis = 0; axis < 3; ++axis) {
       low[axis] = cellAt(triangle.low[axis]);

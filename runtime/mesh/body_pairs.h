@@ -27,7 +27,8 @@ struct PairCorner {
   }
 };
 
-/// The bounding box of a triangle and its cell, from which countPairs() finds triangles that lie near each other.
+/// The bounding box of a triangle, and the cell that the triangle belongs to. countPairs() finds nearby triangles from
+/// them.
 struct PairTriangle {
   std::array<int16_t, 3> low, high;  ///< bounding box, in 1/256 of a cell
   uint32_t home = 0;                 ///< index of the cell that contains the lowest corner of the bounding box
@@ -45,11 +46,11 @@ struct PairScratch {
 /// Counts the folded and the cut pairs among a body's triangles. corners: three per triangle; corners at equal
 /// positions count as one common corner.
 ///
-/// Two triangles that lie within different cells can meet only in the face between the cells, along a side that both
-/// share or that is open. Therefore a triangle within one cell is compared only with those of the same cell, and a wide
-/// triangle (PairTriangle::wide) with all triangles near it. Ignores triangles that leave the chunk by more than two
-/// cells or span more than four cells along an axis: other measures report them. Takes about 15 ns per triangle, or 0.3
-/// us per wide triangle. Throws std::bad_alloc.
+/// If two triangles each lie within one cell, but in different cells, they can meet only in the face between the cells,
+/// along a side that both share or that is open. Therefore a triangle within one cell is compared only with those of
+/// the same cell, and a wide triangle (PairTriangle::wide) with all triangles near it. Ignores triangles that leave the
+/// chunk by more than two cells or span more than four cells along an axis: other measures report them. Takes about 15
+/// ns per triangle, or 0.3 us per wide triangle. Throws std::bad_alloc.
 PairCounts countPairs(std::span<const PairCorner> corners, PairScratch& scratch);
 
 }  // namespace sgm

@@ -31,9 +31,9 @@ std::optional<FacePoint> ontoSurface(const SharpSide& side, const FacePoint& fro
   return FacePoint{from[0] - step * u, from[1] - step * v};
 }
 
-/// Rounds a point in the cell face of a loop side to 1/256 of a cell, and clamps it to the grid square of the side or,
-/// if the point lies beyond, to one adjacent square. nullopt if the point is more than a cell outside the side's
-/// square.
+/// Rounds a point in the plane of a loop side's cell face to 1/256 of a cell. Then clamps it to the side's own grid
+/// square or, if the point lies beyond that, to an adjacent square. nullopt if the point is more than a cell outside
+/// the side's own square.
 std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32_t cell) {
   const auto outside = [](int32_t at) { return std::max(-at, at - kSubcell); };
   const int u = (side.axis + 1) % 3, v = (side.axis + 2) % 3;
@@ -43,8 +43,8 @@ std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32
     if (!(at >= -kSubcell && at <= 2 * kSubcell)) return std::nullopt;
     place[k == 0 ? u : v] = static_cast<int32_t>(at);
   }
-  // Only a position more than kClose outside the loop side's own square stays in the adjacent square. Any other
-  // position is moved into the own square, where it cannot collide with other face vertices.
+  // A position stays in an adjacent square only if it lies more than kClose outside the loop side's own square. Any
+  // other position is moved into the own square, where it cannot collide with other face vertices.
   const int across = outside(place[u]) > outside(place[v]) ? u : v;
   const bool is_beside = outside(place[across]) > kClose && outside(place[across]) <= kMaxOutside &&
                          isInFace(side, across, place[across] < 0 ? -1 : 1, cell);
@@ -70,8 +70,8 @@ bool isSimple(const Creases& creases, const SharpSide& side, const Int3& first, 
     return area > 0 ? 1 : area < 0 ? -1 : 0;
   };
   const Int3 from = placeOfEnd(side.from), to = placeOfEnd(side.to);
-  // The first and the last segment of the path cannot cross if one of them lies on one side of the line through the
-  // other.
+  // The path has three segments; only the first and the last can cross. They do not if one of them lies on one side of
+  // the line through the other.
   const bool apart =
       turn(from, first, second) * turn(from, first, to) > 0 || turn(second, to, from) * turn(second, to, first) > 0;
   return apart && turn(from, first, second) != 0 && turn(first, second, to) != 0;
@@ -93,15 +93,16 @@ class SurfacePlaces {
   }
 
  private:
-  /// A loop side whose ends' tangent planes meet off the surface, because a third plane cuts the crease off. Candidate
-  /// positions of its face vertices: `first` and `second`, where the third plane meets the planes of the ends; or else
-  /// `single`, a point on the third plane.
+  /// A loop side at which the tangent planes of its two ends meet off the surface, because a third plane cuts the
+  /// crease off. Holds candidate positions of its face vertices: `first` and `second`, where the third plane meets the
+  /// planes of the ends; or else `single`, a point on the third plane.
   struct CutOff {
     SharpSide* side;
     std::optional<Int3> single, first, second;
   };
 
-  /// Places face vertices where the tangent planes of a loop side's two ends meet.
+  /// For each loop side in a face of the chunk: places a face vertex where the tangent planes at the side's two ends
+  /// meet within that face. Where this point lies off the surface, calls cutOff().
   void placeMeetings(std::span<SharpSide> sides, std::pmr::vector<SharpSide*>& placed) {
     std::pmr::vector<SharpSide*> tried(points_.get_allocator());
     for (SharpSide& side : sides) {
@@ -143,8 +144,9 @@ class SurfacePlaces {
     cut_off_.push_back(cut);
   }
 
-  /// Places the face vertices of loop sides whose crease a third plane cuts off: two where the third plane meets the
-  /// planes of the ends or, if that fails, one on the third plane.
+  /// Places the face vertices of loop sides whose crease a third plane cuts off. Preferably, these are two vertices,
+  /// where the third plane meets the tangent planes of the two ends. If these positions are unusable, it is one vertex
+  /// on the third plane.
   void placeCutOff(std::pmr::vector<SharpSide*>& placed) {
     points_.clear();
     for (const CutOff& cut : cut_off_) {
@@ -182,9 +184,9 @@ class SurfacePlaces {
   std::pmr::vector<CutOff> cut_off_;
 };
 
-/// Places the face vertices of loop sides, without a test whether rounded loops would intersect others. Returns the
-/// sides that have positions. A side loses its positions if they lie in two different squares adjacent to its own, or
-/// if its own square is ambiguous, so that the surface passes through it twice.
+/// Places the face vertices of loop sides, without testing whether the rounded loops would intersect others. Returns
+/// the sides that have positions. A side gets no positions if they would lie in two different squares adjacent to its
+/// own, or if its own square is ambiguous, that is, if the surface passes through it twice.
 std::pmr::vector<SharpSide*> placeAlone(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
                                         std::span<SharpSide> sides, std::pmr::memory_resource* memory) {
   std::pmr::vector<SharpSide*> placed = SurfacePlaces(grid, field, creases, memory).give(sides, memory);

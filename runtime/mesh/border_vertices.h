@@ -15,13 +15,13 @@ namespace sgm {
 std::pmr::vector<SharpSide> borderSides(const BodyLoops& body, const Creases& creases, const FieldSampler& field,
                                         std::pmr::memory_resource* memory);
 
-/// Places the face vertices of the loop sides in a face of the chunk (SharpSide::places). A face vertex lies where the
-/// tangent planes of the side's two ends meet the face, in the side's own grid square or the adjacent one. If that
-/// point is off the surface because a third plane cuts the crease off (SharpSide::third), the side gets two positions,
-/// where the third plane meets each of the two planes and the face; if these are unusable, one position on the third
-/// plane. A side gets no position if all of these points are too far away or off the surface; if the surface passes
-/// through its square twice; or if the rounded loop would intersect another loop of its own cell or of adjacent cells
-/// (mesh/rounded_cells.h).
+/// Places the face vertices of the loop sides in a face of the chunk (SharpSide::places). A side is a segment of a
+/// surface loop in a face of a cell. Its face vertex lies where the tangent planes of the side's two ends meet the
+/// face, in the side's own grid square or the adjacent one. If that point is off the surface because a third plane cuts
+/// the crease off (SharpSide::third), the side gets two positions; at each of them, the third plane meets the face and
+/// one of the two tangent planes; if these are unusable, one position on the third plane. A side gets no position if
+/// all of these points are too far away or off the surface; if the surface passes through its square twice; or if the
+/// rounded loop would intersect another loop of its own cell or of adjacent cells (mesh/rounded_cells.h).
 ///
 /// Pure; the result is the same for the chunks on both sides of a face and for the seam between them. grid: the grid of
 /// the sides' level; its chunks begin at multiples of 32 cells, and its origin is a multiple of a cell. keys: the keys

@@ -30,8 +30,8 @@ struct Cell {
     return static_cast<int>(at - edges.begin());
   }
 
-  /// Returns a mask in which bit f is set for each face f that contains edge e. A triangulation may have a diagonal
-  /// between two edges only if their masks are disjoint.
+  /// Returns the faces that contain edge e, as a mask: bit f for face f. A triangulation may have a diagonal between
+  /// two edges only if no face contains both, that is, if their masks are disjoint.
   uint32_t facesOfEdge(int e) const {
     uint32_t mask = 0;
     for (size_t f = 0; f < faces.size(); ++f) {

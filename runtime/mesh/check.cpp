@@ -80,8 +80,8 @@ void countDuplicates(size_t v, std::span<const Corner> around, std::vector<std::
 
 enum class Link { cycle, path, broken };
 
-/// Classifies the link of a vertex. link: the triangles around the vertex, which this function sorts by `next`. In the
-/// link, a triangle is followed by the triangle whose next vertex is its previous vertex.
+/// Classifies the link of a vertex. link: the triangles around the vertex; this function sorts them by `next`. In the
+/// link, triangle a is followed by the triangle b with b.next == a.previous.
 Link classifyLink(std::vector<Corner>& link) {
   std::sort(link.begin(), link.end(), [](const Corner& a, const Corner& b) { return a.next < b.next; });
   const auto find = [&](uint32_t from) {
@@ -91,7 +91,8 @@ Link classifyLink(std::vector<Corner>& link) {
   };
   for (size_t i = 1; i < link.size(); ++i)
     if (link[i].next == link[i - 1].next) return Link::broken;
-  // A path starts at the only triangle that follows no other triangle; a cycle may start anywhere.
+  // Marks each triangle that follows another triangle in the link. If the link is a path, all triangles but the first
+  // are marked; if it is a cycle, all are.
   std::vector<bool> led_to(link.size());
   for (const Corner& c : link) {
     const size_t to = find(c.previous);

@@ -37,9 +37,9 @@ struct MeshReport {
 /// Formats the counts that are not 0 as one line.
 std::string describe(const MeshReport& report);
 
-/// Checks a triangle list. indices: three per triangle, each below vertex_count (precondition). Takes about 0.2 us per
-/// triangle. memory: the function allocates 8 bytes per vertex and 24 per triangle while it runs, and up to 16 more per
-/// vertex.
+/// Checks a triangle list. indices: three per triangle; precondition: each is less than vertex_count. Takes about 0.2
+/// us per triangle. memory: source of temporary memory: 8 bytes per vertex and 24 bytes per triangle, and up to 16 more
+/// bytes per vertex.
 MeshReport checkTriangles(std::span<const uint32_t> indices, size_t vertex_count,
                           std::pmr::memory_resource* memory = std::pmr::new_delete_resource());
 

@@ -65,12 +65,14 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 16);
 
-/// Identifies a crossed edge, and so a vertex, without any tolerance. It follows from a chunk and a packed vertex:
-/// corner is the vertex's position rounded down to the grid of the edge's level, axis the coordinate that is not a
-/// multiple of that level's cell; the fan of a lateral edge follows from the blocks around the chunk (mesh/fans.h). A
-/// grid edge starts at `corner` and runs along `axis` for one cell of `level`. A lateral edge (axis kLateral) joins the
-/// two levels `level` and `level + 1` at one corner of a seam; `fan` numbers the cycle of seam cells around it, so that
-/// every vertex's link is one cycle even if the two levels' fields differ.
+/// Identifies an edge that the surface crosses, and so the vertex on this edge, without any tolerance. There are two
+/// kinds of edges. A grid edge starts at `corner` and runs along `axis` for one cell of `level`. A lateral edge (axis
+/// kLateral) joins the levels `level` and `level + 1` at one corner of a seam. `fan` distinguishes the vertices on a
+/// lateral edge: it is the number of the vertex's cycle of seam cells around this edge. So the triangles around every
+/// vertex form one cycle, even if the fields of the two levels differ. A key can be computed from a chunk and a packed
+/// vertex: `corner` is the vertex's position rounded down to the grid of the edge's level; `axis` is the axis on which
+/// the position is not a multiple of that level's cell; and the fan of a lateral edge follows from the blocks around
+/// the chunk (mesh/fans.h).
 struct VertexKey {
   Int3 corner;
   uint8_t level = 0;
@@ -79,15 +81,16 @@ struct VertexKey {
   friend auto operator<=>(const VertexKey&, const VertexKey&) = default;
 };
 inline constexpr uint8_t kLateral = 3;
-/// Axes in the keys of feature vertices (mesh/sharpen.h). A face vertex has kFaceVertex plus the normal axis of its
-/// face, and the face's lowest corner; a cell vertex has kCellVertex and the cell's lowest corner. `fan` numbers the
-/// sides of a face, or the loops of a cell; the second face vertex of a side has kSecondOfSide added to its fan.
+/// Keys of feature vertices (mesh/sharpen.h). A face vertex, which belongs to a face of a cell: `axis` is kFaceVertex
+/// plus the axis of the face's normal; `corner` is the lowest corner of the face; `fan` is the number of the loop side
+/// in this face, plus kSecondOfSide for the second face vertex of the same side. A cell vertex, the centre of a loop's
+/// fan: `axis` is kCellVertex; `corner` is the lowest corner of the cell; `fan` is the number of the loop in the cell.
 inline constexpr uint8_t kFaceVertex = 4;
 inline constexpr uint8_t kCellVertex = 7;
 inline constexpr uint8_t kSecondOfSide = 8;
 
-/// Two 32-bit sums over a part's words, each mixed with its index (mesh/hash.h): the same on any device and in any
-/// order of addition.
+/// A hash of a part's words: two 32-bit sums of the words, each mixed with its index (mesh/hash.h). The same on any
+/// device and for any order of addition.
 struct ContentHash {
   uint32_t a = 0, b = 0;
   friend auto operator<=>(const ContentHash&, const ContentHash&) = default;

@@ -13,10 +13,10 @@ constexpr int kLast = kChunkSamples - 1;
 constexpr size_t kPitch = 40;  // number of values per row in memory, rounded up to a whole number of SIMD vectors
 constexpr uint64_t kOwnSamples = (uint64_t{1} << kChunkCells) - 1;
 
-/// Computes the squared distance from each sample to the nearest solid sample, one axis after the other: the nearest
-/// solid sample of a plane is among the nearest ones of its rows (Felzenszwalb and Huttenlocher, Distance Transforms of
-/// Sampled Functions). Does not compute the lower envelope of that paper: the window of 2 reach + 1 samples is so short
-/// that a full search is fastest.
+/// Computes the squared distance from each sample to the nearest solid sample, first along x, then along y, then along
+/// z. Each step uses only the results of the step before: the nearest solid sample in a plane is also the nearest in
+/// its row of that plane (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled Functions). Searches the whole
+/// window of 2 reach + 1 samples, since it is too short for the lower envelope of that paper to be faster.
 class SquaredDistances {
  public:
   SquaredDistances(const ChunkSignsAround& around, int most, std::pmr::memory_resource* memory)
@@ -59,8 +59,8 @@ class SquaredDistances {
       return around_[static_cast<size_t>(i + 3 * j + 9 * k)]->row(y - (j - 1) * kChunkCells, z - (k - 1) * kChunkCells);
     };
     const uint64_t own = row(1);
-    // The chunk at lower x contributes all samples except the one that it shares with the middle chunk; so does the
-    // chunk at higher x.
+    // The row continues in the chunks at lower x and higher x. Each contributes all of its samples except the one in
+    // the face that it shares with the middle chunk.
     const uint64_t low = reach_ > 0 ? row(0) & kOwnSamples : 0, high = reach_ > 0 ? row(2) >> 1 : 0;
     if ((own | low | high) == 0) return;
     int away = low != 0 ? std::countl_zero(low) - (64 - kChunkCells) : 2 * kChunkCells;
@@ -77,8 +77,8 @@ class SquaredDistances {
     }
   }
 
-  /// Writes to `to` the minimum over 2 reach + 1 rows, starting at `from`, of the values plus the squared distance of
-  /// the row from the middle one.
+  /// One step of the transform. For 2 reach + 1 rows from `from` on, adds to each row's values the squared distance of
+  /// the row from the middle row, and writes the minimum of these sums to `to`.
   void nearest(const int16_t* from, size_t pitch, int16_t* to) const {
     for (int d = -reach_; d <= reach_; ++d, from += pitch) {
       const auto square = static_cast<int16_t>(d * d);

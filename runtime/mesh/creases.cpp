@@ -10,10 +10,11 @@ namespace {
 
 constexpr double kSharpCosine = 0.9;      // cosine of 26 degrees: larger angles between normals indicate a feature
 constexpr double kOffSurface = 1.0 / 25;  // in cells: tolerance for points on the surface
-constexpr double kSlide = 1.0 / 128;      // in cells: a vertex closer to the surface is not moved
+constexpr double kSlide = 1.0 / 128;      // in cells: a vertex at most this far from the surface is not moved
 // sine of the angle between two lines in a face; below it, their intersection is ill-conditioned
 constexpr double kLeastSine = 0.05;
-// in cells: a vertex closer to a crease counts as lying on it, since triangles between the two would be slivers
+// in cells: a vertex at most this far from a crease counts as lying on it, since triangles between the vertex and the
+// crease would be slivers
 constexpr double kOnCrease = 3.0 / 256;
 
 Vector3 gradientOf(const FieldSample& s) { return {s.gradient[0], s.gradient[1], s.gradient[2]}; }
@@ -58,7 +59,7 @@ void Creases::touch() {
   }
 }
 
-/// Returns the point on a vertex's edge at `step` / 256 of the edge.
+/// Returns the point on the grid edge of a vertex that is `step` / 256 of the edge's length from the edge's start.
 Int3 Creases::pointOnEdge(uint32_t vertex, int32_t step) const {
   Int3 point = part_.keys[vertex].corner;
   point[part_.keys[vertex].axis] += localUnits(step, grid_.cell);
@@ -77,8 +78,8 @@ std::pmr::vector<FieldSample> Creases::sampleEdges(std::span<const uint32_t> ver
   return samples;
 }
 
-/// Moves vertices that are off the surface along their grid edge onto the surface, by bisection. Moves only vertices
-/// whose grid edge passes through a crease.
+/// Finds vertices that are off the surface, and whose grid edge passes through a crease. Moves each of them along its
+/// grid edge to the point where the edge meets the surface, found by bisection.
 void Creases::slide() {
   std::pmr::vector<uint32_t> off(memory_), moving(memory_);
   for (uint32_t v = 0; v < tangents_.size(); ++v) {
@@ -184,8 +185,9 @@ std::optional<Int3> Creases::onGridAlong(const Tangent& a, const Tangent& b, con
     const Range range = rangeOn(k, corner, across);
     const double lo = range.least * step - units[axis], hi = range.most * step - units[axis];
     if (std::fabs(along[axis]) < 1e-6) {
-      // A crease that lies in a face of the chunk may be up to 1/256 of a cell outside by rounding; onGrid() moves it
-      // inside.
+      // The crease runs perpendicular to this axis, so moving along it does not change this coordinate. A crease in a
+      // face of the chunk may lie up to 1/256 of a cell outside because of rounding. That is allowed here: onGrid()
+      // moves the point inside.
       if (lo > step || hi < -step) return std::nullopt;
       continue;
     }
@@ -196,7 +198,7 @@ std::optional<Int3> Creases::onGridAlong(const Tangent& a, const Tangent& b, con
   const double at = std::clamp(0.0, least, most);
   Vector3 place;
   for (size_t k = 0; k < 3; ++k) {
-    // `least` and `most` are rounded, so the point is clamped again.
+    // Clamps the point once more: because of rounding in `least` and `most`, it may lie slightly outside the range.
     const double lo = -kMaxOutside * step, hi = ((static_cast<int>(k) == across ? 0 : kSubcell) + kMaxOutside) * step;
     place[k] = std::clamp(units[k] + at * along[k], lo, hi);
   }

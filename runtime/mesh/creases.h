@@ -71,32 +71,35 @@ class Creases {
   void settle();
   const Tangent& tangent(uint32_t vertex) const { return tangents_[vertex]; }
 
-  /// True if the normals of two vertices (after settle()) differ enough for a feature vertex between them, and neither
-  /// of the two lies on the crease itself.
+  /// True if a feature vertex is needed between two vertices: their normals (after settle()) differ enough, and neither
+  /// vertex lies on the crease itself.
   bool isSharp(uint32_t a, uint32_t b) const;
 
-  /// Same as isSharp(), but also true if a vertex lies on the crease itself.
+  /// True if the normals of two vertices differ enough; unlike isSharp(), also if one of the vertices lies on the
+  /// crease itself.
   bool differ(uint32_t a, uint32_t b) const;
 
   /// Returns the point on the crease of two planes that is nearest to `start`. Both points are in units from `corner`.
   static Vector3 nearestOnCrease(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& start);
 
-  /// True if a point in units from `corner` lies on the crease of two planes, within the tolerance of surface points.
+  /// True if a point lies on the crease of two planes, within maxOffSurface(). place: the point, in units from
+  /// `corner`.
   bool isOnCrease(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& place) const;
 
   /// Returns the point where the crease of two planes meets the face through `corner` with a normal along `axis`;
   /// nullopt if the intersection is ill-conditioned.
   static std::optional<FacePoint> meetingInFace(const Tangent& a, const Tangent& b, const Int3& corner, int axis);
 
-  /// Rounds a point, in units from a corner of the grid, to 1/256 of a cell. nullopt if the point lies more than
-  /// kMaxOutside beyond the corner's cell or, along the axis `across` (-1: none), more than kMaxOutside from the
-  /// cell's low face. A point beyond the chunk is moved to 1/256 of a cell inside it.
+  /// Rounds a point to 1/256 of a cell. units: the point, in units from `corner`, which is the lowest corner of a grid
+  /// cell. nullopt if the point lies more than kMaxOutside beyond that cell. `across` (-1: none) is an axis with a
+  /// stricter limit: along it, the point must lie within kMaxOutside of the cell's low face. A point beyond the chunk
+  /// is moved to 1/256 of a cell inside the chunk.
   std::optional<Int3> onGrid(const Int3& corner, const Vector3& units, int across = -1) const;
-  /// Same as onGrid, for the point on the crease of the two planes that is nearest to `units` and within the allowed
-  /// range.
+  /// Same as onGrid, but first moves the point `units`, which must lie on the crease of the two planes, along this
+  /// crease to the nearest point in the allowed range. nullopt if no point of the crease is in that range.
   std::optional<Int3> onGridAlong(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& units,
                                   int across) const;
-  /// The point, in whole units, at which the field is sampled for a position `place` that onGrid returned.
+  /// Returns the point, in whole units, at which the field is sampled for `place`, a result of onGrid().
   Int3 sampledAt(const Int3& corner, const Int3& place) const;
   /// Returns the tolerance, in units, for points on the surface. It includes one unit because the field is sampled at
   /// whole units.
@@ -122,7 +125,7 @@ class Creases {
   MeshPart& part_;
   std::pmr::memory_resource* memory_;
   std::pmr::vector<Tangent> tangents_;  ///< tangent plane at each vertex
-  std::pmr::vector<Vector3> normals_;   ///< normal at each vertex, as rounded by packing
+  std::pmr::vector<Vector3> normals_;   ///< normal at each vertex, rounded to the packed format
 };
 
 }  // namespace sgm

@@ -3,9 +3,9 @@
 namespace sgm {
 namespace {
 
-/// Tolerance for slivers, which may face inward because their corners are rounded. The dot product of twice a
-/// triangle's area vector with the sum of its vertices' normals may be negative by this value times the square of a
-/// cell's edge.
+/// Tolerance of the test whether a triangle faces inward: slivers may do so slightly, because their corners are
+/// rounded. The test computes the dot product of the triangle's area vector, times two, and the sum of the normals at
+/// its corners. The triangle faces inward if this product is less than -kFold times the square of a cell's edge.
 constexpr double kFold = 0.02;
 
 }  // namespace

@@ -6,9 +6,10 @@
 
 namespace sgm {
 
-/// True if each triangle except slivers, and the sum of all triangles, faces out of the solid according to the tangents
-/// at its vertices. Triangles whose corners are all feature vertices are exempt, because feature vertices have no
-/// tangent. creases: those of the part whose vertices the triangles index, after settle().
+/// Checks the orientation of triangles by the tangents at their vertices. True if every triangle except slivers faces
+/// out of the solid, and if the sum of all triangles does so too. Triangles whose corners are all feature vertices are
+/// exempt, because feature vertices have no tangent. creases: the creases, after settle(), of the part to whose
+/// vertices the triangles refer.
 bool facesOut(const LoopTriangles& triangles, const Creases& creases);
 
 }  // namespace sgm

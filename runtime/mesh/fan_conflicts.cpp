@@ -12,10 +12,10 @@ namespace sgm {
 namespace {
 
 constexpr uint32_t kNone = SharpLoops::kNone;
-/// True if the fan, projected along one of a few directions, goes around its centre once and never turns back: then no
-/// two of its triangles overlap. Most fans around a cell vertex pass this quick test.
+/// A quick test, which most fans around a cell vertex pass: true if no two triangles of the fan overlap in a projection
+/// along one of a few directions. In the projection, the fan then goes around its centre once and never turns back.
 bool isSeenWhole(std::span<const NamedTriangle> fan) {
-  // If the centre is one of the ring's own points, the fan does not go around it.
+  // The fan is not closed: its centre is one of the ring's own points.
   if (fan.front().name[1] != fan.back().name[2]) return false;
   for (size_t i = 1; i < fan.size(); ++i)
     if (fan[i].name[0] != fan[0].name[0] || fan[i].name[1] != fan[i - 1].name[2]) return false;
@@ -30,8 +30,9 @@ bool isSeenWhole(std::span<const NamedTriangle> fan) {
     areas[i] = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
   }
   for (const Int3& d : kDirections) {
-    // The normal of a line through the centre, in the projection along d: across . (p - centre) = 0. The fan crosses
-    // this line upwards once in each round.
+    // Counts how often the fan goes around its centre in the projection along d. Consider a line through the centre in
+    // this projection, with the normal `across`: each time around, the fan crosses the line once in the direction of
+    // `across`.
     const Int3 across = d.x != 0 && d.y != 0 ? Int3{d.y, -d.x, 0}
                         : d.x != 0           ? Int3{0, 1, 0}
                         : d.y != 0           ? Int3{0, 0, 1}
@@ -83,9 +84,9 @@ class Neighbours {
     visitCells(loop, own, lo, hi, visit);
   }
 
-  /// Same as visit(), but if all features of `loop` lie inside its cell, visits only loops of the same cell and of
-  /// cells that share a face with it. A loop farther away can intersect `loop` only if its own fan leaves its cell;
-  /// then the call for that loop finds the pair.
+  /// Same as visit(), but visits fewer loops if isInside(loop): only loops of the same cell, and of the cells that
+  /// share a face with it. A more distant loop can intersect `loop` only with a fan that leaves its own cell. The call
+  /// of visitFromInside() for that distant loop then visits the pair.
   template <class Visit>
   void visitFromInside(uint32_t loop, const Visit& visit) const {
     if (!isInside(loop)) return this->visit(loop, visit);
@@ -108,8 +109,9 @@ class Neighbours {
 
  private:
   struct Boxes {
-    /// `all`: box around all features of a loop; `off_squares`: box around all except the face vertices that lie in the
-    /// grid squares of their loop sides
+    /// `all`: box around all features of a loop, which are the fan's centre and the face vertices. `off_squares`: box
+    /// around the features except those face vertices that lie inside the grid square (the cell face) of their own loop
+    /// side.
     PlaceBox all, off_squares;
   };
 
@@ -120,8 +122,8 @@ class Neighbours {
     });
   }
 
-  /// True if the cell of a sharp loop is not at the chunk's border, all features of the loop lie in the cell, and the
-  /// only features on the cell's faces are face vertices inside the grid squares of their loop sides.
+  /// True if all features of a sharp loop lie in its cell, and the cell does not touch the chunk's border. A feature
+  /// may lie in a face of the cell only if it is a face vertex inside the grid square of its own loop side.
   bool isInside(uint32_t loop) const {
     const Int3& cell = body_.all()[loop].cell;
     const Boxes& boxes = features_[place_[loop]];
@@ -158,9 +160,10 @@ class Neighbours {
     box.take({(cell.x + 1) * kSubcell, (cell.y + 1) * kSubcell, (cell.z + 1) * kSubcell});
     return box;
   }
-  /// True if a grid plane between the cells of two loops separates the loops. Only two things may lie in that plane:
-  /// edges of marching-cubes loops, which never intersect, and face vertices inside their grid squares. These vertices
-  /// cannot collide if the two loops have different squares in the plane, or share the side and thus its face vertices.
+  /// True if a grid plane between the cells of two loops separates the loops. Only two things of the loops may lie in
+  /// that plane: edges of marching-cubes loops, which never intersect, and face vertices inside the grid square of
+  /// their own loop side. Face vertices of the two loops cannot collide there in two cases: the loops have different
+  /// squares in the plane; or they share a side, and thus its face vertices.
   bool areApart(uint32_t a, uint32_t b) const {
     const Int3 &at = body_.all()[a].cell, &other = body_.all()[b].cell;
     for (int k = 0; k < 3; ++k) {
@@ -193,8 +196,8 @@ class Neighbours {
 
   const SharpLoops& sharp_;
   const BodyLoops& body_;
-  std::pmr::vector<uint32_t> place_;  ///< by loop of the body: its index in sharp_.loops, or kNone
-  std::pmr::vector<Boxes> features_;  ///< by sharp loop: boxes in 1/256 of a cell, from the chunk's origin
+  std::pmr::vector<uint32_t> place_;  ///< for each loop of the body: its index in sharp_.loops, or kNone
+  std::pmr::vector<Boxes> features_;  ///< for each sharp loop: boxes in 1/256 of a cell, from the chunk's origin
 };
 
 /// Caches the current triangles of loops; computes them when they are first requested.
@@ -255,7 +258,7 @@ class PresentTriangles {
 
   const SharpLoops& sharp_;
   const Neighbours& neighbours_;
-  std::pmr::vector<Range> at_;  ///< range of each loop of the body
+  std::pmr::vector<Range> at_;  ///< for each loop of the body: the range of its triangles
   std::pmr::vector<NamedTriangle> triangles_;
   std::pmr::vector<PlaceBox> boxes_;  ///< bounding box of each entry of triangles_
 };
@@ -295,11 +298,11 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
       return s != kNone && !sharp.sides[s].places.empty() && !sharp.hasFaceVertices(sharp.sides[s]);
     });
   };
-  // dirty: indices of the sharp loops to be tested. tested_at, changed_at: times of a loop's last test and last change,
-  // on a clock that `now` advances with each test and change.
+  // dirty: indices of the sharp loops to be tested. tested_at, changed_at: for each sharp loop, the time of its last
+  // test and of its last change. The clock `now` counts tests and changes.
   std::pmr::vector<uint32_t> dirty(sharp.loops.size(), memory), changed(memory);
   std::pmr::vector<uint64_t> tested_at(sharp.loops.size(), memory), changed_at(sharp.loops.size(), memory);
-  // the dirty loops in the order of their tests: the rank in the high bits, the index in the low bits
+  // the entries of `dirty` in the order in which they are tested; each is a rank (high bits) and an index (low bits)
   std::pmr::vector<uint64_t> order(memory);
   uint64_t now = 0;
   std::iota(dirty.begin(), dirty.end(), 0);
@@ -311,9 +314,8 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
     }
   };
   while (!dirty.empty()) {
-    // At a corner of the solid, one point may be the centre of many loops' fans. The loop whose cell contains the point
-    // should keep it. So loops are tested, and changed, in the order of how far their centre lies outside their cell,
-    // farthest first.
+    // At a corner of the solid, many fans may have their centre at the same point. Only the loop whose cell contains
+    // the point should keep it. So the loop with its centre farthest outside its cell is tested, and changed, first.
     order.clear();
     for (const uint32_t number : dirty) {
       const auto rank = static_cast<uint32_t>(kMaxOutside - outsideOf(sharp, sharp.loops[number]));
@@ -326,12 +328,14 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
       SharpLoop& loop = sharp.loops[number];
       if (!loop.isFan()) continue;
       tested_at[number] = ++now;
-      // The fan was valid with all of its face vertices, but changes to other loops may have removed some of them.
+      // The fan was sound when its loop had all of its face vertices. Changes of other loops may have removed some of
+      // these vertices, so it is checked again.
       bool faulty = lacksVertex(loop) && !isSound(sharp.trianglesOf(loop));
       neighbours.visitFromInside(loop.loop, [&](uint32_t other) {
         if (faulty) return;
         const uint32_t place = neighbours.placeOf(other);
-        // The result is known if the pair was tested and neither loop has changed since then.
+        // This pair of loops need not be tested again if the test of the other loop has included it, and neither loop
+        // has changed since then.
         const bool is_known = place != kNone && sharp.loops[place].isFan() && tested_at[place] > changed_at[place] &&
                               tested_at[place] > changed_at[number] && neighbours.visitsFromInside(other, loop.loop);
         if (!is_known) faulty = present.anyMeets(loop.loop, other);
@@ -344,8 +348,8 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
       visitSharing(loop, [&](uint32_t other) { changed_at[other] = now; });
       changed.push_back(number);
     }
-    // Loops adjacent to a changed loop, or to a loop that shares a side with it, are tested again: the changes may have
-    // caused new intersections.
+    // The changes may have caused new intersections. So the next pass tests the changed loops, the loops that share
+    // sides with them, and the neighbours of both.
     dirty.clear();
     const auto spread = [&](uint32_t number) {
       dirty.push_back(number);

@@ -37,9 +37,9 @@ class Patch {
   size_t count() const { return count_; }
   const FanPoint& corner(size_t i) const { return corners_[i]; }
 
-  /// Triangulates the patch as a fan around its first corner. If that fan folds, takes other diagonals with which all
-  /// triangles face one way, if there are any. Returns false if the fan's diagonals are not free and no other
-  /// triangulation exists.
+  /// Triangulates the patch as a fan around its first corner. If that fan folds, and other free diagonals exist with
+  /// which all triangles face one way, uses these diagonals instead. Returns false if the fan's diagonals are not free,
+  /// and no other free diagonals give triangles that all face one way.
   bool triangulate(const IsFree& is_free, LoopTriangles& triangles) const {
     const bool may_be_fan = hasFreeSpokes(is_free);
     if ((may_be_fan && isFan(normal())) || !triangulateFlat(is_free, triangles)) {
@@ -142,7 +142,8 @@ LoopTriangles stripTriangles(std::span<const FanPoint> ring, bool from_second, c
     const FanPoint& point = ring[(start + i) % ring.size()];
     if (cuts_off) cut_off.add(point);
     is_empty = is_empty && point.is_feature;
-    // The walk around the ring ends at the face vertex where it began, which `rest` already contains.
+    // Adds the points of the remaining patch. The walk ends at the face vertex at which it began; `rest` already
+    // contains this vertex.
     if ((!cuts_off || point.is_feature) && i < ring.size()) rest.add(point);
     if (!point.is_feature) continue;
     if (!cuts_off && is_empty) return {};
@@ -164,8 +165,7 @@ LoopTriangles patchTriangles(const FanPoint& centre, std::span<const FanPoint> r
   const auto first = std::find_if(ring.begin(), ring.end(), [](const FanPoint& p) { return p.is_feature; });
   const size_t start = is_closed ? static_cast<size_t>(first - ring.begin()) : 0;
   const size_t count = ring.size() + (is_closed ? 1 : 0);
-  // Two patches may have the same two face vertices; only one of the patches may have the diagonal between these
-  // vertices.
+  // If two patches have the same two face vertices, only one of the patches may have a diagonal between these vertices.
   std::array<uint32_t, 2> joined{centre.name, centre.name};
   const IsFree is_left = [&](uint32_t a, uint32_t b) { return !(a == joined[1] && b == joined[0]) && is_free(a, b); };
   Patch patch(centre);

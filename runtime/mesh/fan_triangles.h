@@ -27,21 +27,22 @@ LoopTriangles coneTriangles(const FanPoint& centre, std::span<const FanPoint> ri
 using IsFree = std::function<bool(uint32_t a, uint32_t b)>;
 
 /// Same as coneTriangles, but with other diagonals in patches where the cone would fold. The creases from the centre to
-/// the face vertices divide the surface into patches, each of them approximately planar. The centre may not see all of
-/// a patch; then the cone's triangles of the patch do not all face one way. Such a patch gets diagonals with which all
-/// of its triangles face one way, if there are any: those whose smallest triangle is largest.
+/// the face vertices divide the surface into patches, each of them approximately planar. If the centre does not see all
+/// of a patch, the cone's triangles in it do not all face one way. Such a patch gets other diagonals, with which all of
+/// its triangles face one way; among several choices, the one whose smallest triangle is largest. If no diagonals
+/// achieve this, the patch keeps the cone.
 ///
-/// To let splitCreases() find its side of the crease, a triangle whose corners are all features is followed by another
-/// triangle of its patch, except the triangle between the two face vertices of one side. Returns no triangles if a
-/// diagonal would not be free.
+/// A triangle whose corners are all features is followed by another triangle of its patch, so that splitCreases() finds
+/// on which side of the crease it lies; the triangle between the two face vertices of one side is an exception. Returns
+/// no triangles if a diagonal would not be free (see IsFree).
 LoopTriangles patchTriangles(const FanPoint& centre, std::span<const FanPoint> ring, bool is_closed,
                              const IsFree& is_free);
 
 /// Returns triangles without a centre, for a ring that several creases pass through. Each crease joins two consecutive
-/// face vertices of the ring, and cuts off the patch between them. The remaining patch lies between the creases. Every
-/// other stretch of the ring between two face vertices is cut off, beginning at the first face vertex or, if
-/// `from_second`, at the second. A triangle whose corners are all features is followed by another triangle of its
-/// patch.
+/// face vertices of the ring, and cuts off the patch between them. Only every other pair of consecutive face vertices
+/// is joined by a crease: the first crease starts at the first face vertex or, if `from_second`, at the second. The
+/// remaining patch lies between the creases. A triangle whose corners are all features is followed by another triangle
+/// of its patch.
 ///
 /// Returns no triangles if the number of face vertices is odd, if a diagonal would not be free, if the triangles of a
 /// patch would not all face one way, or if the remaining patch has no vertex.

@@ -5,14 +5,14 @@
 namespace sgm {
 namespace {
 
-/// Returns the half axes (of the six that start at the corner) that bound a quad (a quarter plane, mesh/fans.h), as a
-/// mask of six bits: bit 2 * axis + side.
+/// Returns a mask of the half axes that bound a quad (a quarter plane, mesh/fans.h): bit 2 * axis + side, for the six
+/// half axes that start at the corner.
 constexpr uint32_t halfAxes(int quad) {
   const int axis = quad / 4, first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
   return 1u << (2 * first + (quad & 1)) | 1u << (2 * second + (quad >> 1 & 1));
 }
 
-/// Returns for each quad the mask of the quads that have a half axis in common with it, itself included.
+/// For each quad, returns the mask of all quads that share a half axis with it. The mask includes the quad itself.
 constexpr std::array<uint16_t, 12> makeNeighbours() {
   std::array<uint16_t, 12> neighbours{};
   for (int q = 0; q < 12; ++q)
@@ -23,7 +23,7 @@ constexpr std::array<uint16_t, 12> makeNeighbours() {
 }
 constexpr std::array<uint16_t, 12> kNeighbours = makeNeighbours();
 
-/// Returns the number of the octant on the low side of a quad.
+/// Returns the number of the octant that a quad touches on the low side of its plane.
 constexpr int octantBelow(int quad) {
   const int axis = quad / 4, first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
   return (quad & 1) << first | (quad >> 1 & 1) << second;
@@ -49,8 +49,9 @@ int lateralFan(uint8_t coarser, int quad) {
 SeamFans seamFans(Face face, Neighbourhood coarser) {
   coarser = (coarser | neighbourBit(face)) & ~neighbourBit(0, 0, 0);
   const int axis = faceAxis(face), u = (axis + 1) % 3, v = (axis + 2) % 3;
-  // Returns the offset, in chunks along one axis, of the block on one side of a corner. place: the corner is at the low
-  // border (0), inside (1) or at the high border (2) of the chunk.
+  // Returns the position, along one axis, of the block that lies on one side of a corner: its offset from the own
+  // block, in chunks. place: the corner is at the low border (0), inside (1) or at the high border (2) of the chunk.
+  // side: the low (0) or the high (1) side.
   const auto offset = [](int place, int side) { return place == 1 ? 0 : place == 0 ? side - 1 : side; };
   SeamFans fans{};
   for (int b = 0; b < 3; ++b) {
@@ -65,8 +66,9 @@ SeamFans seamFans(Face face, Neighbourhood coarser) {
             neighbourBit(offset(place.x, o & 1), offset(place.y, o >> 1 & 1), offset(place.z, o >> 2));
         octants |= static_cast<uint32_t>((coarser & block) != 0) << o;
       }
-      // All quads in the seam's face at this corner give the same fan. The chunk lies on the high side of its low
-      // border, and on the low side elsewhere.
+      // All quads at this corner that lie in the seam's face and beside the chunk give the same fan, so use any of
+      // them. Its side along u: if the corner is at the chunk's low border, the chunk lies on the corner's high side,
+      // and vice versa. The same holds along v.
       const int side_u = a == 0 ? 1 : 0, side_v = b == 0 ? 1 : 0;
       const int quad = 4 * axis + (u < v ? side_u + 2 * side_v : side_v + 2 * side_u);
       fans[static_cast<size_t>(b)][static_cast<size_t>(a)] =

@@ -26,7 +26,7 @@ SharpLoops Features::find() && {
   return std::move(sharp_);
 }
 
-/// True if a crease passes through vertices of a loop none of whose sides is sharp (mesh/sharp_loops.h).
+/// True if a crease passes through vertices of a loop. Precondition: no side of the loop is sharp (mesh/sharp_loops.h).
 bool Features::passesVertices(const SurfaceLoop& loop) const {
   const auto next = [&](uint32_t i) { return loop.vertices[(i + 1) % loop.count]; };
   bool any = false;
@@ -44,7 +44,8 @@ void Features::findSides() {
     if (keys[b] < keys[a]) std::swap(a, b);
     return uint64_t{a} << 32 | b;
   };
-  std::pmr::vector<uint64_t> names(memory_);  // sharp loop sides, each as its two end vertices packed into one word
+  // sharp sides of all loops; each side is named by its two end vertices, packed into one word
+  std::pmr::vector<uint64_t> names(memory_);
   for (uint32_t number = 0; number < body_.all().size(); ++number) {
     const SurfaceLoop& loop = body_.all()[number];
     const size_t before = names.size();
@@ -136,8 +137,8 @@ Features::Centres Features::centresOf(const SharpLoop& sharp) const {
   }
   add(plus(middle, axes.step(2)));
   if (feature_count == 1) {
-    // A crease may end in a vertex that lies on it; then the loop has only one face vertex. The midpoint of the face
-    // vertex and that vertex is a candidate.
+    // A crease may end at a vertex of the loop that lies on the crease. Then the loop has only one face vertex, and the
+    // midpoint between that face vertex and the loop's vertex is a candidate.
     const uint32_t only = *std::find_if(sharp.sides.begin(), sharp.sides.end(),
                                         [&](uint32_t s) { return s != kNone && !sharp_.sides[s].places.empty(); });
     const SharpSide& side = sharp_.sides[only];
@@ -205,18 +206,18 @@ std::optional<FanCentre> Features::nextCentre(SharpLoop& sharp) const {
   return std::nullopt;
 }
 
-/// Makes a loop a fan around a centre, or a strip, if the result is valid (hasFault), lies on the surface and faces out
-/// of the solid. Returns whether it did.
+/// Triangulates a loop as a fan around a centre, or as a strip, provided that the triangles are valid (hasFault), lie
+/// on the surface and face out of the solid. Otherwise returns false.
 bool Features::take(const FanCentre& centre, const FieldSample& sample, SharpLoop& sharp) const {
   if (centre.isStrip()) return takeStrip(centre, sharp);
   if (!creases_.isOnSurface(sample)) return false;
-  // A fan around a face vertex is always made by patches, because diagonals from its centre could lie in the face of
-  // the chunk.
+  // A fan whose centre is a face vertex is always triangulated patch by patch, without diagonals from the centre: these
+  // could lie in the face of the chunk.
   return (centre.kind == FanCentre::Kind::cell_vertex && takeAs(centre, false, sharp)) || takeAs(centre, true, sharp);
 }
 
-/// Makes a loop a strip, if the strip is valid (hasFault) and the centres of its triangles lie on the surface. Returns
-/// whether it did.
+/// Triangulates a loop as a strip, which has no vertex inside the loop, provided that the strip is valid (hasFault) and
+/// the centres of its triangles lie on the surface. Otherwise returns false.
 bool Features::takeStrip(const FanCentre& centre, SharpLoop& sharp) const {
   const LoopTriangles strip = sharp_.fullFan(sharp, centre, true);
   if (!facesOut(strip, creases_)) return false;

@@ -14,8 +14,8 @@ namespace sgm {
 /// Computes the sharp loops of one body. Member functions throw std::bad_alloc.
 class Features {
  public:
-  /// Borrows all arguments. creases: settled, with the tangents of all vertices of the body. border: result of
-  /// borderSides for the body.
+  /// Borrows all arguments. creases: those of the body, after settle(), with the tangents of all its vertices. border:
+  /// the result of borderSides for the body.
   Features(const BodyLoops& body, const Creases& creases, std::span<const SharpSide> border, const FieldSampler& field,
            std::pmr::memory_resource* memory);
 

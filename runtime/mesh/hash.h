@@ -44,8 +44,8 @@ struct PlacedPart {
 ContentHash hashPlaced(ContentHash part, const ChunkGrid& grid, int number);
 
 /// Returns the hash of a set of parts: the sum of the parts' hashes, each mixed with its position (hashPlaced). The
-/// order has no effect, nor do parts without triangles, so that empty chunks may be listed or not. Reads
-/// MeshPart::hash.
+/// order of the parts has no effect. Parts without triangles have no effect either, so that empty chunks may be listed
+/// or not. Reads MeshPart::hash.
 ContentHash hashParts(std::span<const PlacedPart> parts);
 
 }  // namespace sgm

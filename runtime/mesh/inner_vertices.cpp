@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint32_t kNone = SharpLoops::kNone;
 
-/// Returns the distance between the plane `plane` and the point of the tangent `other`.
+/// Returns the distance of the point `other.point` from the plane `plane`.
 double offPlane(const Tangent& plane, const Tangent& other) {
   return std::fabs(dot(plane.normal, between(plane.point, other.point)) - plane.distance);
 }
@@ -82,9 +82,9 @@ class InnerVertices {
     return plus(middle, PlaneAxes(planes).step(3));
   }
 
-  /// Returns the next point on the crease of the loop side `own` within one of the two loops that share the side: the
-  /// ideal point of the loop's next side on that crease, or the point where the crease ends. In units from the corner
-  /// of `own`.
+  /// Follows the crease of the loop side `own` within `loop`, one of the two loops that share this side. Returns the
+  /// next point on the crease: the ideal point of the loop's next side on that crease or, if there is none, the point
+  /// where the crease ends. In units from the corner of `own`.
   Vector3 nextOnCrease(uint32_t own, uint32_t loop) const {
     const SharpSide& side = sharp_.sides[own];
     const auto idealOf = [&](uint32_t other) {
@@ -100,16 +100,16 @@ class InnerVertices {
       along = other;
       ++others_along;
     }
-    // If the loop has no other sharp side, the ideal point of `own` counts once more, so that two sides do not get the
-    // same mean.
+    // If the loop has no other sharp side, there is no next point: return the ideal point of `own` itself.
     if (others == 0) return ideals_[own];
     if (others == 1) return idealOf(last);
-    // Unless exactly one other side of the loop lies on this crease, the crease may end where it meets other creases.
+    // If exactly one other side of the loop lies on this crease, the next point is the ideal point of that side.
+    // Otherwise the crease may end inside the cell, where it meets other creases.
     return others_along == 1 ? idealOf(along) : meetingPoint(sharp_.loops[loop], side.corner);
   }
 
-  /// Returns the mean of a loop side's ideal point, with weight two, and of the next points on its crease in both
-  /// loops.
+  /// Returns the weighted mean of three points on the crease of a loop side: its own ideal point (weight two) and the
+  /// next point in each of the two loops that share the side.
   Vector3 meanOnCrease(uint32_t own) const {
     Vector3 sum = times(ideals_[own], 2);
     for (const uint32_t loop : sharp_.sides[own].loops)
@@ -135,8 +135,8 @@ class InnerVertices {
     }
   }
 
-  /// Adds candidate positions for loop sides that have no position on the surface, because a third plane cuts off the
-  /// crease of the planes of their ends.
+  /// For loop sides that have no position yet, replaces their candidates by new ones. All candidates of such a side are
+  /// off the surface, because a third plane cuts off the crease between the tangent planes at the side's ends.
   void chooseCutOff() {
     const std::pmr::vector<Choice> tried = std::move(choices_);
     choices_.clear();
@@ -146,8 +146,8 @@ class InnerVertices {
       if (!side.places.empty() || !is_last) continue;
       const Tangent &a = creases_.tangent(side.from), &b = creases_.tangent(side.to);
       const Tangent& third = side.third.emplace(tangentAt(tried[i].point, tried[i].sample));
-      // The end farther from the third plane comes first: an end in the third plane lies on a crease of that plane, so
-      // that its normal may belong to either of two planes.
+      // First tries the end of the side that is farther from the third plane. An end in the third plane lies on a
+      // crease between this plane and another one, so its normal may belong to either of them.
       std::array<const Tangent*, 2> ends{&a, &b};
       if (offPlane(third, a) < offPlane(third, b)) std::swap(ends[0], ends[1]);
       for (const Tangent* end : ends) choose(tried[i].side, *end, third, nearestOnCrease(*end, third, side));

@@ -14,11 +14,11 @@
 
 namespace sgm {
 
-/// Places the face vertices of all loop sides that are not in a face of the chunk, on the crease of the tangent planes
-/// of the side's ends. If that point is off the surface because a third plane cuts the crease off (SharpSide::third),
-/// the position is on the crease of the third plane and of one end's plane. A side gets no position if that point is
-/// off the surface or too far away. sharp: its sides must be filled; sides in faces of the chunk already have
-/// positions. Throws std::bad_alloc.
+/// Places the face vertices of all loop sides that are not in a face of the chunk. A face vertex lies on the crease of
+/// the tangent planes of the side's two ends. If that point is off the surface because a third plane cuts the crease
+/// off (SharpSide::third), the face vertex lies on the crease of the third plane and of one end's plane. A side gets no
+/// position if this point, too, is off the surface or too far away. sharp: its sides must be filled; sides in faces of
+/// the chunk already have positions. Throws std::bad_alloc.
 void placeInnerVertices(const Creases& creases, const FieldSampler& field, SharpLoops& sharp,
                         std::pmr::memory_resource* memory);
 

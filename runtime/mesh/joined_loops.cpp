@@ -27,7 +27,8 @@ std::span<const uint32_t> CellLoop::triangulated(Triangles& triangles) const {
 
 FaceName JoinedLoops::faceOf(const SurfaceLoop& loop, uint32_t a, uint32_t b) const {
   FaceName name{loop.cell, sharedFace(body_.part().keys[a], body_.part().keys[b])};
-  // A face is named by the cell on its high side: this cell if the face is its low face, otherwise the next cell.
+  // A face is identified by its axis and by the cell on its high side. If the face is the low face of this cell, that
+  // is this cell, otherwise the next cell along the axis.
   if (body_.part().keys[a].corner[name.axis] != body_.cornerOf(loop.cell)[name.axis]) ++name.cell[name.axis];
   return name;
 }
@@ -47,8 +48,8 @@ bool JoinedLoops::isJoinedAt(const Int3& cell) const {
   return std::any_of(names.begin(), names.end(), [this](const FaceName& name) { return isJoined(name); });
 }
 
-/// Returns the sides (segments between consecutive vertices) of a cell's loops. In a joined face, the two sides have
-/// exchanged their ends.
+/// Returns the sides (segments between consecutive vertices) of a cell's loops. Two sides lie in each joined face;
+/// these two sides exchange their second ends.
 JoinedLoops::CellSides JoinedLoops::sidesOf(const Int3& cell) const {
   CellSides of_cell;
   visitSides(cell, [&](const SurfaceLoop& loop, uint32_t a, uint32_t b) {

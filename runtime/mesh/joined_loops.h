@@ -57,7 +57,7 @@ struct CellLoop {
   std::span<const uint32_t> triangulated(Triangles& triangles) const;
 };
 
-/// The loops of one cell, sorted by their edges of lowest number.
+/// The loops of one cell, sorted by the lowest edge number of each loop.
 struct CellLoops {
   std::array<CellLoop, kCubeEdges / 3> all;
   size_t count = 0;
@@ -74,8 +74,8 @@ class JoinedLoops {
   const BodyLoops& body() const { return body_; }
   /// Returns the cell face that contains two vertices of a loop. Precondition: such a face exists.
   FaceName faceOf(const SurfaceLoop& loop, uint32_t a, uint32_t b) const;
-  /// Calls visit(loop, from, to) for every side (from one vertex to the next) of a cell's loops, as they are without
-  /// joined faces.
+  /// Calls visit(loop, from, to) for every side of a cell's loops. A side leads from one vertex of a loop to the next.
+  /// These are the loops before any faces are joined.
   template <class Visit>
   void visitSides(const Int3& cell, const Visit& visit) const {
     body_.visitWithin(cell, cell, [&](uint32_t number) {

@@ -14,8 +14,8 @@ namespace sgm {
 
 /// Sums over planes normal . (x - start) = distance; they define the quadratic error function.
 struct PlaneSum {
-  std::array<Vector3, 3> squares{};  ///< sum of the outer products of the normals
-  Vector3 right{};                   ///< sum of normals times distances
+  std::array<Vector3, 3> squares{};  ///< sum of the outer products normal * normal^T over the planes
+  Vector3 right{};                   ///< sum of normal * distance over the planes
 
   void add(const Vector3& normal, double distance) {
     for (size_t i = 0; i < 3; ++i) {
@@ -30,7 +30,8 @@ class PlaneAxes {
  public:
   explicit PlaneAxes(const PlaneSum& planes) : right_(planes.right) {
     std::array<Vector3, 3> a = planes.squares;
-    constexpr int kSweeps = 8;  // number of sweeps; convergence is quadratic, so five are enough for doubles
+    // maximum number of sweeps, with a margin: convergence is quadratic, so five sweeps are enough for doubles
+    constexpr int kSweeps = 8;
     constexpr double kSettled = 1e-30;
     const double all = a[0][0] * a[0][0] + a[1][1] * a[1][1] + a[2][2] * a[2][2];
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
@@ -46,8 +47,9 @@ class PlaneAxes {
     for (size_t k = 0; k < 3; ++k) told_[k] = a[k][k];
   }
 
-  /// Returns the step from the sum's start to the nearest point. Moves only along the `rank` best-determined directions
-  /// (largest eigenvalues), and not along a direction whose eigenvalue is below 1/1000 of the largest.
+  /// Returns the step from `start` (of PlaneSum) to the point nearest to the planes. Moves only along the first `rank`
+  /// eigenvectors in descending order of their eigenvalues, and not along one whose eigenvalue is below 1/1000 of the
+  /// largest: the planes do not determine the point well in that direction.
   Vector3 step(size_t rank) const {
     constexpr double kTold = 1e-3;
     Vector3 step{};
@@ -87,8 +89,9 @@ class PlaneAxes {
   std::array<size_t, 3> order_{0, 1, 2};
 };
 
-/// Returns the shortest step that meets both planes normal . step = distance. Normals have length 1; a missing plane
-/// has normal 0. If the planes nearly face each other, returns the step to the middle between them.
+/// Returns the shortest step that ends in both planes; a plane contains the steps with normal . step = distance.
+/// Normals have length 1; a missing plane has normal 0. If the normals are nearly opposite, returns the step to the
+/// middle between the two planes.
 inline Vector3 stepToBoth(const Vector3& a, double to_a, const Vector3& b, double to_b) {
   constexpr double kFacing = 1e-3;
   const double cosine = dot(a, b), square = 1 - cosine * cosine;

@@ -14,8 +14,8 @@
 namespace sgm {
 
 inline constexpr uint32_t kFaceVertices = 1u << 30,
-                          /// The first names (NamedTriangle::name) of face vertices and of cell vertices; smaller names
-                          /// index a part's vertices.
+                          /// NamedTriangle::name: face vertices have names from kFaceVertices on, cell vertices have
+                          /// names from kCellVertices on; smaller names are indices of a part's vertices.
     kCellVertices = 1u << 31;
 
 /// A box of positions in 1/256 of a cell.
@@ -58,8 +58,8 @@ struct NamedTriangle {
 /// The triangles of one loop.
 class LoopTriangles {
  public:
-  /// The maximum number of triangles: each side of a loop contributes one vertex and up to two face vertices to the
-  /// ring.
+  /// The maximum number of triangles. A fan has one triangle for each point of the polygon around its centre; each side
+  /// of the loop contributes one vertex and up to two face vertices to this polygon.
   static constexpr size_t kMost = 3 * kLongestBodyLoop;
 
   LoopTriangles() = default;
@@ -78,7 +78,8 @@ class LoopTriangles {
   std::span<NamedTriangle> all() { return {store_.triangles.data(), count_}; }
 
  private:
-  /// Uninitialised at first: most loops have few triangles, and initialising all would cost time.
+  /// A union, so that the triangles are not initialised: most loops have few triangles, and initialising kMost would
+  /// cost time.
   union Store {
     std::array<NamedTriangle, kMost> triangles;
     Store() {}  // NOLINT(modernize-use-equals-default): that would be deleted

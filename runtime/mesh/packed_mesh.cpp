@@ -11,7 +11,8 @@ namespace sgm {
 
 namespace {
 
-/// The vertices and indices that are copied into a range of a packed mesh. The indices are relative to `first`.
+/// The vertices and indices that are copied into a range of a packed mesh. The value `first` of an index stands for
+/// vertices[0].
 struct RangeSource {
   std::span<const Vertex> vertices;
   std::span<const uint32_t> indices;

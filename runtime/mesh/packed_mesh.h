@@ -17,7 +17,7 @@ struct PackedRange {
 
 struct PackedMesh {
   RawVector<Vertex> vertices;  ///< body first, then the seams by face
-  /// three per triangle; each counts from the beginning of `vertices`, not of its range
+  /// three per triangle; each is an index into the whole array `vertices`, not into the triangle's own range of it
   RawVector<uint32_t> indices;
   std::array<PackedRange, 7> ranges{};  ///< the body, then the seams by Face; empty if absent
 
@@ -30,8 +30,8 @@ struct PackedMesh {
 /// parts[0] is the body, parts[1 + Face] a seam; null or empty if absent.
 using MeshParts = std::array<const MeshPart*, 7>;
 
-/// Concatenates parts into one mesh. Ranges that exist in `before` but not in `parts` are copied from `before`: so
-/// seams can be added to a mesh whose body keeps the same bytes at the same place. Throws std::bad_alloc.
+/// Concatenates parts into one mesh. A part that is null in `parts` is copied from `before`, if that mesh has it. So
+/// seams can be added to a mesh while its body keeps the same bytes at the same place. Throws std::bad_alloc.
 PackedMesh packMesh(const MeshParts& parts, const PackedMesh* before, std::pmr::memory_resource* memory);
 
 /// Packs a body without seams. Moves its arrays instead of copying them if they were allocated from `memory`. Throws

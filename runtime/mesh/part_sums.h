@@ -21,8 +21,8 @@ struct PartSums {
   friend bool operator==(const PartSums&, const PartSums&) = default;
 };
 
-/// Computes the sums of one part. Precondition: indices are below vertices.size(), and positions in the range of
-/// triangle_terms.h.
+/// Computes the sums of one part. Precondition: indices are below vertices.size(), and positions are in the range that
+/// triangle_terms.h requires.
 PartSums sumsOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices);
 
 /// Converts the area to square metres. cell: the chunk's cell edge, in units.

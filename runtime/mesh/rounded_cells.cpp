@@ -59,8 +59,8 @@ bool RoundedCells::isOwn(const Claim& claim, uint32_t a, uint32_t b) const {
          (part_.keys[a] == claim.to && part_.keys[b] == claim.from);
 }
 
-/// For each claim, finds the other loop sides near it that may have face vertices in a face of the chunk, and places
-/// these vertices.
+/// A claim says that a rounded loop intersects no other loop. For each claim, finds the other loop sides near it that
+/// may have face vertices in a face of the chunk, and places these vertices.
 void RoundedCells::findOthers() {
   std::pmr::vector<SharpSide> sides(memory_);
   std::pmr::vector<Border> all(memory_);
@@ -115,9 +115,9 @@ bool RoundedCells::keepsClear(const Claim& claim) const {
   return true;
 }
 
-/// Returns the triangles of a loop. Its face vertices are those of the claim's own side and of the other sides whose
-/// bit in `present` is set. If a vertex also belongs to the loop of the claim's own side, its name
-/// (NamedTriangle::name) is the one that it has in that loop.
+/// Returns the triangles of a loop with only some of its face vertices: those of the claim's own side, and those of the
+/// other sides whose bit in `present` is set. A vertex that the loop shares with the loop of the claim's own side gets
+/// the same name (NamedTriangle::name) as in that loop.
 LoopTriangles RoundedCells::trianglesOf(size_t number, const Border& own, std::span<const Border> others,
                                         uint32_t present) const {
   const SurfaceLoop &loop = loops_[number], &own_loop = loops_[own.loop];

@@ -21,17 +21,17 @@ namespace sgm {
 /// sharp, may end up with or without their face vertices, so a claim is tested in all of these cases.
 class RoundedCells {
  public:
-  /// Places the face vertices of the given loop sides, which lie in faces of the chunk, without testing claims.
-  /// creases: the tangent planes of the vertices that the sides join.
+  /// Computes the positions of the face vertices of the given loop sides, which lie in faces of the chunk. Does not
+  /// test claims. creases: the tangent planes of the vertices at the ends of these sides.
   using PlaceAlone = std::function<void(const Creases& creases, std::span<SharpSide>)>;
 
   /// Borrows all arguments.
   RoundedCells(const ChunkGrid& grid, const FieldSampler& field, const PlaceAlone& place_alone,
                std::pmr::memory_resource* memory);
 
-  /// Adds a claim for a rounded loop: the loop that has `side` as one of its edges, in the cell above or below the face
-  /// in which `side` lies. Keeps a reference to `side`. from, to: the keys of the ends of `side`. q: the field at the
-  /// cell's corners.
+  /// Adds a claim for a side's loop in one cell: the cell above or below the face in which `side` lies. Keeps a
+  /// reference to `side`. from, to: the keys of the vertices at the ends of `side`. q: the field at the corners of that
+  /// cell.
   void add(SharpSide& side, const VertexKey& from, const VertexKey& to, bool above, const std::array<int32_t, 8>& q);
   /// Adds an adjacent cell to the last claim, `steps` cells away from the claim's cell. q: the field at the corners of
   /// that cell.
@@ -45,12 +45,14 @@ class RoundedCells {
     SharpSide* side;
     VertexKey from, to;
     Int3 cell;
-    /// ranges in loops_: first..end - 1 are the loops of the claim's cell, end..end_beside - 1 those of adjacent cells
+    /// ranges in loops_: the loops first..end - 1 are in the claim's cell, the loops end..end_beside - 1 in adjacent
+    /// cells
     size_t first, end, end_beside;
     size_t first_other = 0, end_other = 0;
   };
   /// A sharp loop side in a face of the chunk: the side of a claim, or another side near the claim. loop: index in
-  /// loops_ of the side's loop. behind: index in the loop of the vertex at which the side begins.
+  /// loops_ of the loop that contains the side. behind: index, among the loop's vertices, of the vertex at which the
+  /// side begins.
   struct Border {
     size_t loop = 0;
     uint32_t behind = 0;
@@ -68,7 +70,8 @@ class RoundedCells {
   MeshPart part_;
   std::pmr::vector<SurfaceLoop> loops_;
   std::pmr::vector<Claim> claims_;
-  std::pmr::vector<Border> others_;  ///< sharp loop sides near the claims, without the claims' own sides; by claim
+  std::pmr::vector<Border> others_;  ///< sharp loop sides near the claims (without the sides of the claims themselves),
+                                     ///< grouped by claim
   Creases creases_;
   std::pmr::memory_resource* memory_;
 };

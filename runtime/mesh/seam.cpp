@@ -105,8 +105,8 @@ class SeamBuilder {
   }
 
  private:
-  /// Adds a vertex on the edge that starts at point (a, b) of the face, counted in steps of `step` fine cells. The
-  /// vertex lies at t / 256 of the edge.
+  /// Adds a vertex, and returns its number. The edge of the vertex starts at point (a, b) of the face, counted in steps
+  /// of `step` fine cells; the vertex lies at t / 256 of the edge's length.
   uint32_t addVertex(size_t a, size_t b, int32_t step, int edge_axis, uint32_t t) {
     Int3 at, corner = grid_.origin;
     at[axis_] = faceIsHigh(face_) ? kChunkCells : 0;
@@ -140,7 +140,8 @@ class SeamBuilder {
   int axis_, u_, v_;
   const ChunkGrid& grid_;
   MeshPart& part_;
-  // Uninitialised: an entry is read only if its edge is crossed, and then it has been written.
+  // Uninitialised, but safe: an entry is read only for a crossed edge, and the vertex of that edge has been stored
+  // before.
   std::array<std::array<std::array<uint32_t, 2>, kFineSide>, kFineSide> fine_;
   std::array<std::array<std::array<uint32_t, 2>, kCoarseSide>, kCoarseSide> coarse_;
   std::array<std::array<uint32_t, kCoarseSide>, kCoarseSide> lateral_;

@@ -1,6 +1,6 @@
 #pragma once
-// The seam between a chunk and a neighbour one level coarser: a sheet of seam cells of zero thickness in their common
-// face. The finer chunk owns it.
+// The seam between a chunk and a neighbour one level coarser: a sheet of seam cells of zero thickness in the common
+// face of the two chunks. The seam belongs to the finer chunk.
 
 #include "mesh/chunk.h"
 #include "mesh/fans.h"
@@ -11,8 +11,8 @@ inline constexpr int kCoarseCells = kChunkCells / 2;  ///< number of coarse squa
 inline constexpr int kCoarseSamples = kCoarseCells + 1;
 
 /// Samples of the field of the coarser level at the coarse grid points of one face. In q, a varies fastest, then b. Bit
-/// a of signs[b] is set if sample (a, b) is solid. As in ChunkSamples, q is only read at the ends of coarse edges of
-/// the face whose ends differ in sign.
+/// a of signs[b] is set if sample (a, b) is solid. As in ChunkSamples, q is only read at the ends of crossed edges:
+/// coarse edges in the face whose ends differ in sign.
 struct CoarseFace {
   std::array<int32_t, kCoarseSamples * kCoarseSamples> q{};
   std::array<uint32_t, kCoarseSamples> signs{};

@@ -76,8 +76,8 @@ std::optional<FanCentre> SharpLoops::centreOf(const SharpLoop& sharp) const {
 
 namespace {
 
-/// True if no loop of an adjacent cell can have the same diagonal between two points of the ring. Only a loop of the
-/// cell behind a face that contains both points could have it.
+/// True if a loop may use the diagonal between the points a and b of its ring, because no loop of an adjacent cell can
+/// use the same diagonal. Such a loop is possible only in the cell behind a face that contains both points.
 bool isFree(const SharpLoops& sharp, const SurfaceLoop& loop, uint32_t a, uint32_t b) {
   if (a >= kCellVertices || b >= kCellVertices) return true;
   const RawVector<VertexKey>& keys = sharp.body.part().keys;
@@ -85,7 +85,8 @@ bool isFree(const SharpLoops& sharp, const SurfaceLoop& loop, uint32_t a, uint32
     return name < kFaceVertices ? nullptr : &sharp.sides[SharpLoops::sideOf(name - kFaceVertices)];
   };
   const SharpSide *const of_a = sideOf(a), *const of_b = sideOf(b);
-  // A face vertex lies in the same face as the two ends of its loop side, so these ends are tested instead of it.
+  // A face vertex lies in the same face as the two ends of its loop side, so the test uses these ends instead of the
+  // face vertex.
   const std::array<uint32_t, 4> ends{of_a ? of_a->from : a, of_a ? of_a->to : a, of_b ? of_b->from : b,
                                      of_b ? of_b->to : b};
   const int axis = of_a ? of_a->axis : of_b ? of_b->axis : sharedFace(keys[a], keys[b]);
@@ -95,7 +96,7 @@ bool isFree(const SharpLoops& sharp, const SurfaceLoop& loop, uint32_t a, uint32
     if (keys[v].axis == axis || keys[v].corner[axis] != plane) return true;
   Int3 beside = loop.cell;
   beside[axis] += plane == sharp.body.cornerOf(loop.cell)[axis] ? -1 : 1;
-  // The loops beyond the chunk are unknown and might have the diagonal.
+  // The cell is outside of the chunk. Its loops are unknown, and one of them might use the diagonal.
   if (beside[axis] < 0 || beside[axis] >= kChunkCells) return false;
   bool is_free = true;
   sharp.body.visitWithin(beside, beside, [&](uint32_t number) {
@@ -107,13 +108,15 @@ bool isFree(const SharpLoops& sharp, const SurfaceLoop& loop, uint32_t a, uint32
   return is_free;
 }
 
-/// The ring of a loop: its vertices and face vertices, in order. The array has space for the ring twice.
+/// The ring of a loop: its vertices and face vertices, in order. The array has space for two copies of the ring, so
+/// that a walk around it can start at any point.
 struct Ring {
   std::array<FanPoint, 2 * LoopTriangles::kMost> points;
   size_t count = 0;
 };
 
-/// Builds the ring of a loop. has(side): returns whether a side that can have face vertices currently has them.
+/// Builds the ring of a loop. has(side): returns whether the face vertices of a side belong to the ring; it is called
+/// only for sides that have positions for face vertices.
 template <class Has>
 Ring ringOf(const SharpLoops& sharp, const SharpLoop& own, const Has& has) {
   Ring ring;
@@ -145,7 +148,8 @@ LoopTriangles fanTriangles(const SharpLoops& sharp, const SharpLoop& own, const 
   }
   size_t start = 0;
   if (!is_closed) {
-    // The centre is a point of the ring, so the ring starts after it.
+    // The fan's centre is itself a point of the ring. The fan therefore goes around the other points only, and starts
+    // at the point after the centre.
     while (ring.points[start++].name != middle.name) continue;
     std::copy_n(ring.points.begin(), start, ring.points.begin() + static_cast<std::ptrdiff_t>(ring.count));
   }

@@ -13,21 +13,22 @@
 // Validity takes precedence over sharpness. A loop whose fan intersects another triangle (mesh/triangle_faults.h) is
 // ROUNDED: it keeps its marching-cubes triangles, and its sides lose their face vertices.
 //
-// The sides in a face of the CHUNK are an exception. Their face vertices (two if a third plane cuts off the crease of
-// the ends' planes) lie in that face and depend only on the field near it (mesh/border_vertices.h). All other features
-// of a chunk lie strictly inside it. So the bodies on both sides of the face meet only where they should, whichever of
-// their loops are rounded, and so does the seam that lies in the face between two levels. Chunks that are meshed
-// separately agree without communication. A rounded loop keeps these face vertices, and is a fan around a point
-// strictly within its own cell (roundedCentre).
+// The sides in a face of the CHUNK are an exception: rounding does not remove their face vertices. These face vertices
+// (two if a third plane cuts off the crease of the ends' planes) lie in the chunk's face, and depend only on the field
+// near it (mesh/border_vertices.h). So chunks that are meshed separately agree without communication. A rounded loop
+// with such face vertices is a fan around a point strictly within its own cell (roundedCentre). All other features of a
+// chunk lie strictly inside the chunk. So the bodies on both sides of a face, and the seam that lies in the face
+// between two levels, meet only where they should, whichever of their loops are rounded.
 //
 // Rounded loops never intersect each other, so that rounding terminates. The fan of a rounded loop is a cone over a
-// simple polygon on the boundary of its cell, which is convex: the cone stays in the cell, and has no other point in
-// common with the boundary. If the cell has another loop, the cone is tested against it (mesh/rounded_cells.h). If a
-// face vertex lies outside the side's square, the centre is 1/256 of a cell away from the chunk's face, and so is the
-// part of the cone beyond the cell. If no contour crosses the square of the face beneath that part, triangles there
-// whose corners are not in the face are at least 1/256 away; otherwise the cone is tested against the loops there. If
-// several sides have a face vertex in one such square, each vertex stays in its side's part of the square, or the cones
-// are tested against each other (mesh/surroundings.h).
+// simple polygon on the boundary of its cell. The cell is convex, so the cone stays in the cell, and has no other point
+// in common with the boundary. If the cell has another loop, the cone is tested against it (mesh/rounded_cells.h).
+//
+// If a face vertex lies outside the side's square, a part of the cone lies beyond the cell. The centre is then 1/256 of
+// a cell away from the chunk's face, and that part is no farther away. If no contour crosses the square of the face
+// beneath that part, triangles there whose corners are not in the face are at least 1/256 away; otherwise the cone is
+// tested against the loops there. If several sides have a face vertex in one such square, each vertex stays in its
+// side's part of the square, or the cones are tested against each other (mesh/surroundings.h).
 
 #include <array>
 #include <cstdint>
@@ -42,9 +43,9 @@
 
 namespace sgm {
 
-/// The positions of the face vertices of one loop side, ordered from its end SharpSide::from to its other end: one
-/// position, or two if a third plane cuts off the crease of the ends' planes. In 1/256 of a cell from the side's
-/// corner.
+/// The positions of the face vertices that lie on one side of a surface loop, relative to SharpSide::corner, in 1/256
+/// of a cell. They are ordered from the vertex SharpSide::from to the vertex SharpSide::to. There is one, or there are
+/// two if a third plane cuts off the crease in which the tangent planes of the side's two ends meet.
 class FacePlaces {
  public:
   static constexpr size_t kMost = 2;
@@ -62,17 +63,21 @@ class FacePlaces {
   uint32_t count_ = 0;
 };
 
-/// A side of a loop, with different normals at its ends.
+/// A side of a loop whose two ends have different normals.
 struct SharpSide {
   static constexpr uint32_t kNone = UINT32_MAX;
 
-  uint32_t from = 0, to = 0;                    ///< vertices at its ends, the lower key first: the same in both cells
-  Int3 corner;                                  ///< lowest corner of the side's grid square, in units
-  int axis = 0;                                 ///< normal axis of the face in which the side lies
-  bool at_border = false;                       ///< true if the side lies in a face of the chunk
-  std::array<uint32_t, 2> loops{kNone, kNone};  ///< indices of its sharp loops, first that of the lower cell
-  std::optional<Tangent> third;                 ///< tangent plane where its ends' planes meet, if off the surface
-  FacePlaces places;                            ///< empty if no face vertex is possible; two only in faces of the chunk
+  uint32_t from = 0, to = 0;  ///< the vertices at the side's ends; `from` has the lower key, so the order is the same
+                              ///< in both cells that share the side
+  Int3 corner;                ///< lowest corner of the grid square (face of a cell) in which the side lies, in units
+  int axis = 0;               ///< normal axis of the face in which the side lies
+  bool at_border = false;     ///< true if the side lies in a face of the chunk
+  /// index of the sharp loop that contains this side, in the cell on the low side of the face, and in the cell on its
+  /// high side; kNone if there is no such loop
+  std::array<uint32_t, 2> loops{kNone, kNone};
+  std::optional<Tangent> third;  ///< third plane: the tangent plane at the point where the tangent planes of the side's
+                                 ///< ends meet, if that point is off the surface
+  FacePlaces places;             ///< empty if no face vertex is possible; two only in faces of the chunk
 
   friend bool operator<(const SharpSide& a, const SharpSide& b) {
     return a.from != b.from ? a.from < b.from : a.to < b.to;
@@ -93,20 +98,20 @@ Int3 fromChunk(const ChunkGrid& grid, const SharpSide& side, const Int3& place);
 /// face vertex of the side.
 VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from, size_t which);
 
-/// A face vertex in a face of the chunk.
+/// A face vertex (a vertex that sharpening adds in a cell's face) that lies in a face of the chunk.
 struct BorderVertex {
   Int3 at;
   int axis = 0;  ///< the normal axis of that face
 };
 
-/// Returns the centre of a rounded loop with face vertices in a face of the chunk, strictly within its cell. It is the
-/// mean of the loop's vertices and of these face vertices. But if a face vertex lies beyond the cell, the centre is
-/// 1/256 of a cell from the face, so that nothing else lies between the fan and the face. All positions are in 1/256 of
-/// a cell from one origin.
+/// Returns the centre of the fan for a rounded loop whose sides have face vertices in a face of the chunk. The centre
+/// lies strictly within the loop's cell. Usually, it is the mean of the loop's vertices and these face vertices. If a
+/// face vertex lies beyond the cell, the centre is only 1/256 of a cell away from the chunk's face, so that no other
+/// triangle fits between the fan and the face. All positions are in 1/256 of a cell from one origin.
 Int3 roundedCentre(const Int3& cell, std::span<const Int3> vertices, std::span<const BorderVertex> at_border);
 
-/// The centre of a fan: a cell vertex, or one of the loop's own face vertices in the chunk's face. The strip kinds have
-/// no centre: creases pass through the loop without meeting (stripTriangles).
+/// The centre of a fan: a cell vertex, or one of the loop's own face vertices that lies in the chunk's face. The two
+/// kinds for strips stand for no centre: in a strip, creases pass through the loop without meeting (stripTriangles).
 struct FanCentre {
   enum class Kind : uint8_t { cell_vertex, face_vertex, strip, strip_from_second };
 
@@ -121,18 +126,20 @@ struct FanCentre {
 /// A loop with sharp sides, or with a crease through its vertices.
 struct SharpLoop {
   enum class Shape : uint8_t {
-    plain,    ///< marching-cubes triangles, or a fan around roundedCentre() with the face vertices in chunk faces
+    plain,    ///< marching-cubes triangles; with face vertices in chunk faces, a fan around roundedCentre()
     fan,      ///< a fan around `centre`, or a strip, with the face vertices of its sharp sides
-    rounded,  ///< same triangles as plain: fans or strips were made, but all were faulty
+    rounded,  ///< the triangles are those of `plain`, because every fan and strip that was tried is faulty
   };
 
-  uint32_t loop = 0;  ///< index of the loop in the body
-  /// for each vertex of the loop: index of the side that begins there; kNone if that side is not sharp
+  uint32_t loop = 0;  ///< index of this sharp loop among all loops of the mesh body
+  /// for each vertex of the loop: index in SharpLoops::sides of the side that begins at this vertex; kNone if that side
+  /// is not sharp
   std::array<uint32_t, kLongestBodyLoop> sides{};
   Shape shape = Shape::plain;
-  FanCentre centre;         ///< centre of the fan, if the shape is `fan`
-  bool by_patches = false;  ///< true if a fan may have diagonals that do not end at its centre
-  uint8_t tried = 0;        ///< number of centres tried so far
+  FanCentre centre;  ///< centre of the fan, if the shape is `fan`
+  /// true: a patch of the fan that is not entirely visible from its centre may have diagonals between other vertices
+  bool by_patches = false;
+  uint8_t tried = 0;  ///< number of centres tried so far
 
   bool isFan() const { return shape == Shape::fan; }
 };
@@ -149,13 +156,13 @@ struct SharpLoops {
       : body(of_body), sides(memory), loops(memory) {}
 
   const SurfaceLoop& of(const SharpLoop& loop) const { return body.all()[loop.loop]; }
-  /// faceVertexOf() and sideOf() convert between a side with the number of its face vertex (`which`: 0 or 1) and the
-  /// index of that face vertex.
+  /// Returns the index of a face vertex. which: its number (0 or 1) among the face vertices of its side. sideOf() is
+  /// the inverse function: it returns the side of a face vertex.
   static uint32_t faceVertexOf(uint32_t side, size_t which) {
     return side * static_cast<uint32_t>(FacePlaces::kMost) + static_cast<uint32_t>(which);
   }
   static uint32_t sideOf(uint32_t face_vertex) { return face_vertex / static_cast<uint32_t>(FacePlaces::kMost); }
-  /// True if the loops of the side, in their current shapes, use its face vertices.
+  /// True if the loops that share the side contain its face vertices, in the shapes chosen for these loops so far.
   bool hasFaceVertices(const SharpSide& side) const;
   Int3 fromChunk(const SharpSide& side, const Int3& place) const { return sgm::fromChunk(body.grid(), side, place); }
   /// Returns the centre of a loop if its current triangles are a fan or strip; nullopt if they are those of marching
@@ -163,7 +170,8 @@ struct SharpLoops {
   std::optional<FanCentre> centreOf(const SharpLoop& loop) const;
   /// Returns the triangles of a loop in its current shape.
   LoopTriangles trianglesOf(const SharpLoop& loop) const;
-  /// Returns the triangles that a loop would have as a fan with all face vertices that its sides can have.
+  /// Returns the triangles of a loop as a fan around `centre` that contains all face vertices that the loop's sides can
+  /// have.
   LoopTriangles fullFan(const SharpLoop& loop, const FanCentre& centre, bool by_patches) const;
 };
 

@@ -29,14 +29,14 @@ uint32_t append(const ChunkGrid& grid, const VertexKey& key, const Int3& place, 
   return static_cast<uint32_t>(part.vertices.size() - 1);
 }
 
-/// Returns the lowest number of a cube edge in a loop, which identifies the loop within its cell.
+/// Returns the lowest cube edge (by number) that the loop passes through; it identifies the loop within its cell.
 uint8_t lowestEdge(const SurfaceLoop& loop, const Int3& corner, const RawVector<VertexKey>& keys) {
   uint8_t lowest = UINT8_MAX;
   for (uint32_t i = 0; i < loop.count; ++i) lowest = std::min(lowest, cubeEdge(keys[loop.vertices[i]], corner));
   return lowest;
 }
 
-/// Writes the features of all loops of a body into the body.
+/// Writes the feature vertices and new triangles of all sharp loops into the mesh body.
 class BodyWriter {
  public:
   BodyWriter(const SharpLoops& sharp, MeshPart& body, std::pmr::memory_resource* memory)

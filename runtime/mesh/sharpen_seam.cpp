@@ -29,8 +29,8 @@ void divide(const std::array<uint32_t, 3>& corners, const std::array<Middles, 3>
       ring[count++] = m;
     }
   }
-  // Makes a fan around one of the face vertices. No other triangle of the seam has that vertex, so no edge occurs
-  // twice.
+  // Makes a fan around one of the face vertices. No other triangle of the seam has this vertex as a corner, so no edge
+  // of the fan can occur twice.
   for (size_t i = 1; i + 1 < count; ++i) {
     indices.insert(indices.end(), {ring[middle], ring[(middle + i) % count], ring[(middle + i + 1) % count]});
   }
@@ -100,7 +100,8 @@ class LevelOfSeam {
     for (size_t i = 0; i < triangles_end; ++i) {
       const uint32_t a = in_part_[seam_.indices[i]], b = in_part_[seam_.indices[i % 3 == 2 ? i - 2 : i + 1]];
       if (a == kNoMiddle || b == kNoMiddle || !creases_.isSharp(a, b)) continue;
-      // Two vertices on edges of one square are the ends of a loop side; two other vertices are the ends of a diagonal.
+      // Use only edges of triangles that are loop sides: both ends lie on edges of the same grid square. Other edges
+      // are diagonals of a loop.
       if (!shareSquare(part_.keys[a], part_.keys[b])) continue;
       sides_.push_back(sideBetween(a, b, part_.keys));
       sides_.back().axis = axis_;
@@ -167,11 +168,11 @@ class LevelOfSeam {
   MeshPart& seam_;
   MeshPart part_;  ///< vertices of this level, copied from the seam
   Creases creases_;
-  std::pmr::vector<uint32_t> of_seam_;  ///< by vertex of part_: its index in the seam
-  /// by vertex of the seam: its index in part_; kNoMiddle for vertices of the other level
+  std::pmr::vector<uint32_t> of_seam_;  ///< for each vertex of part_: its index in the seam
+  /// for each vertex of the seam: its index in part_; kNoMiddle if the vertex belongs to the other level
   std::pmr::vector<uint32_t> in_part_;
   std::pmr::vector<SharpSide> sides_;  ///< sharp loop sides between vertices of part_, sorted
-  std::pmr::vector<Middles> middles_;  ///< by loop side: its face vertices, as indices of the seam's vertices
+  std::pmr::vector<Middles> middles_;  ///< for each loop side: its face vertices, as indices of the seam's vertices
   std::pmr::memory_resource* memory_;
 };
 

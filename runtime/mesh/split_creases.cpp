@@ -17,8 +17,8 @@ constexpr uint32_t kNoCopy = UINT32_MAX;
 
 bool isFeatureKey(const VertexKey& key) { return key.axis >= kFaceVertex; }
 
-/// The attributes that a triangle's feature vertices get: those of the vertex `like`, which lies on the same side of
-/// the crease as the triangle, but with the normal of that side.
+/// The attributes for the feature vertices of a triangle. They are copied from the vertex `like`, which lies on the
+/// same side of the crease as the triangle. Exception: if own_normal is set, it replaces the normal of `like`.
 struct SideOfCrease {
   uint32_t like = kNoCopy;
   Vector3 normal{};
@@ -31,9 +31,10 @@ struct SideOfCrease {
 /// it.
 template <class Mesh>
 SideOfCrease sideOf(const Mesh& mesh, size_t triangle) {
-  // Vertices that are not features have the attributes of their side of the crease. If all corners of a triangle are
-  // features, the next triangle in the mesh that has another corner lies on the same side, or the triangle is the only
-  // one of its side in its cell.
+  // A corner that is not a feature has the attributes of the triangle's side of the crease. If all corners of the
+  // triangle are features, the attributes come from the next triangle in the mesh that has such a corner. That triangle
+  // usually lies on the same side. Exception: if this triangle is alone on its side in the cell, then the normals
+  // differ, and the side gets a normal of its own.
   SideOfCrease side;
   for (size_t i = triangle; side.like == kNoCopy && i < mesh.indices.size(); i += 3) {
     for (size_t k = 0; k < 3; ++k) {
@@ -57,8 +58,8 @@ SideOfCrease sideOf(const Mesh& mesh, size_t triangle) {
 
 template <class Mesh>
 void split(Mesh&& mesh, std::pmr::memory_resource* memory) {
-  // next: linked lists of the copies of each vertex; the entry of a vertex is its next copy. set: true if a feature
-  // vertex has the attributes of a side.
+  // next: linked lists of the copies of each vertex: next[v] is the next copy of v, or kNoCopy. set: by vertex: true if
+  // it is a feature vertex that already has the attributes of a side.
   std::pmr::vector<uint32_t> next(mesh.keys.size(), kNoCopy, memory);
   std::pmr::vector<bool> set(mesh.keys.size(), false, memory);
   for (size_t at = 0; at < mesh.indices.size(); at += 3) {

@@ -5,9 +5,9 @@
 
 namespace sgm {
 
-/// Duplicates feature vertices (mesh/sharpen.h): each side of the crease gets a copy with that side's attributes.
-/// Positions and keys do not change, and triangles keep their shape: vertices with equal keys are copies of one vertex
-/// of the original mesh. Throws std::bad_alloc.
+/// Splits the mesh along its creases: replaces each feature vertex (mesh/sharpen.h) by one copy for each side of the
+/// crease, with this side's attributes. Positions, keys and the shapes of triangles do not change: vertices with equal
+/// keys are copies of one vertex of the original mesh. Throws std::bad_alloc.
 WorldMesh splitCreases(const WorldMesh& mesh, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 /// Splits the creases of a part in place, as the function above does, and recomputes its hash.

@@ -5,12 +5,15 @@
 namespace sgm {
 namespace {
 
-// The numbers of corners. Each square has corners on three levels: c = 0 below the face, 1 in it, 2 above it. The
-// corners of the side's own square have the numbers a + 2b + 4c, where a counts along u = (axis + 1) % 3 and b along v
-// = (axis + 2) % 3. The other squares add two corners per level each: the adjacent square kFar + a + 2c, where a counts
-// along the edge that it shares with the own square; the squares at the low and the high end of that edge kLow + a + 2c
-// and kHigh + a + 2c, where a counts away from the own square; and the opposite square kOpposite + a + 2c, where a
-// counts along the edge.
+// The numbers of the corners of five grid squares in a face of the chunk (Surroundings::Place): the square of the loop
+// side ("own"), one adjacent square, and the three other squares that share an edge with the adjacent square. Each
+// corner exists on three levels: c = 0 below the face, 1 in it, 2 above it. The own square has four corners per level,
+// and each other square adds two:
+// - own square: a + 2b + 4c; a counts along u = (axis + 1) % 3, and b along v = (axis + 2) % 3
+// - adjacent square: kFar + a + 2c; a counts along the edge that it shares with the own square
+// - squares at the low and the high end of that edge: kLow + a + 2c and kHigh + a + 2c; a counts away from the own
+//   square
+// - opposite square: kOpposite + a + 2c; a counts along the same edge
 constexpr size_t kFar = 12, kLow = 18, kHigh = 24, kOpposite = 30;
 
 }  // namespace
@@ -82,8 +85,8 @@ void Surroundings::take(std::span<const FieldSample> samples) {
     if (corner(i)) q_[i] = samples[next++].q;
 }
 
-/// Returns the number of a corner of the cells below and above a square. bits: the corner's position in the square, a +
-/// 2b. level: c.
+/// Returns the number (see the top of the file) of a corner of the cells below or above a square. bits: the corner's
+/// position in the square, a + 2b. level: c.
 size_t Surroundings::numberOf(Place place, size_t bits, size_t level) const {
   if (place == Place::own) return bits + 4 * level;
   const size_t across = bitOf(across_), along_bit = 3 - across;

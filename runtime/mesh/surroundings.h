@@ -1,10 +1,11 @@
 #pragma once
 // The grid squares around a loop side in a face of the chunk, and the cells on both sides of these squares.
 //
-// A face vertex (mesh/sharp_loops.h) may lie beyond the square of its side, in an adjacent square. So the sides in the
-// four squares around a square may all have face vertices in it. The square is divided into four PARTS, one per edge,
-// each with the points that are nearer to this edge than to the others. Face vertices do not interfere if each stays in
-// the part at the edge to its side's own square.
+// A side is a segment of a surface loop on a cell's face. A face vertex (mesh/sharp_loops.h) may lie beyond the square
+// of its side, in an adjacent square. So one square may contain face vertices of the sides in all four squares around
+// it. Each square is therefore divided into four PARTS, one per edge: the part of an edge consists of the points that
+// are nearer to this edge than to the others. Face vertices do not interfere if each of them stays in the part of the
+// edge that borders its side's own square.
 
 #include <array>
 #include <cstdint>
@@ -53,15 +54,16 @@ class Surroundings {
   bool exists(Place place) const;
   size_t numberOf(Place place, size_t bits, size_t level) const;
   bool isSolid(size_t corner) const { return q_[corner] < 0; }
-  /// Returns the bit that stands for an axis of the face in the number of a corner of the side's own square.
+  /// In the number of a corner of the side's own square, one bit tells the corner's position along each axis of the
+  /// face. Returns that bit for an axis.
   size_t bitOf(int axis) const { return axis == (side_.axis + 1) % 3 ? 1 : 2; }
   /// The axis along the edge between the side's own square and the adjacent square.
   int along() const { return 3 - side_.axis - across_; }
 
   const SharpSide& side_;
   int32_t cell_;
-  /// axis and direction (1, -1) from the square of the side to the square with its face vertices; direction 0: the same
-  /// square
+  /// The direction from the side's own square to the square that contains its face vertices. across_: axis of the
+  /// direction; by_: 1 or -1 along this axis, 0 if both squares are the same.
   int across_ = 0, by_ = 0;
   bool are_together_ = true;
   bool leaves_part_ = false;

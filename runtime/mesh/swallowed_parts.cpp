@@ -73,7 +73,8 @@ class Swallowed {
   /// Returns the parts of the surface that have no vertex in a face of the chunk.
   std::pmr::vector<ClosedPart> closedParts() {
     const MeshPart& part = body_.part();
-    std::pmr::vector<PlaceBox> boxes(part.vertices.size(), memory_);  // boxes of the parts' cells, by root vertex
+    // for each part: the box of the cells that it occupies, indexed by the part's root vertex
+    std::pmr::vector<PlaceBox> boxes(part.vertices.size(), memory_);
     for (const SurfaceLoop& loop : body_.all()) boxes[parts_.of(loop.vertices[0])].take(loop.cell);
     for (uint32_t v = 0; v < boxes.size(); ++v) {
       const Int3 at = placeOf(part, v);
@@ -96,9 +97,9 @@ class Swallowed {
     });
   }
 
-  /// Returns the difference that the features of all parts except `part` make to the winding number of these parts
-  /// around a point. The surfaces with and without features differ by closed surfaces, except in the faces of the
-  /// chunk, where inTopFace() adds the missing triangles.
+  /// Returns the change that the features of all parts except `part` cause in the winding number of these parts around
+  /// a point. A loop's triangles with features and its triangles without features together form closed surfaces, except
+  /// in the faces of the chunk; inTopFace() returns the triangles that are missing there.
   int turnsOf(uint32_t part, const Int3& at) {
     int turns = 0;
     const Int3 cell{at.x / kSubcell, at.y / kSubcell, at.z / kSubcell};
@@ -111,8 +112,8 @@ class Swallowed {
     return turns;
   }
 
-  /// Returns the triangles, in the upper face of the chunk, between the straight sides of a loop and the paths through
-  /// their face vertices.
+  /// A side of a loop in the upper face of the chunk may be replaced by a path through face vertices. Returns the
+  /// triangles in this face between the straight sides and their paths.
   LoopTriangles inTopFace(const SharpLoop& loop) const {
     LoopTriangles triangles;
     for (uint32_t i = 0; i < sharp_.of(loop).count; ++i) {
@@ -135,7 +136,8 @@ class Swallowed {
   const BodyLoops& body_;
   Parts parts_;
   std::pmr::memory_resource* memory_;
-  std::pmr::vector<uint32_t> place_{memory_};  ///< by loop of the body: its index in sharp_.loops, or kNone
+  /// for each loop of the body: its index in sharp_.loops; kNone if the loop is not sharp
+  std::pmr::vector<uint32_t> place_{memory_};
 };
 
 }  // namespace

@@ -38,8 +38,8 @@ inline constexpr int kLongestLoop = 12;
 extern const uint16_t kCubeLoopStart[256 + 1];
 extern const uint8_t kCubeLoops[kCubeLoopBytes];
 extern const uint8_t kCubeTriangles[256];  ///< number of triangles of each case
-/// The first loop of each case in kCubeLoops: the offset of its edges, its length << 16, and 1 << 24 if more loops
-/// follow.
+/// For each case, its first loop in kCubeLoops, packed as a sum: the offset of the loop's edges, plus its length << 16,
+/// plus 1 << 24 if the case has more loops.
 extern const uint32_t kCubeFirstLoop[256];
 extern const uint16_t kCubeEdgeFaces[kCubeEdges];
 

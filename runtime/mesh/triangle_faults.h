@@ -112,8 +112,8 @@ class TrianglePair {
            (a_side == 0 && between(c, d, a)) || (b_side == 0 && between(c, d, b));
   }
 
-  /// True if the segment meets the triangle. from_side, to_side: the results of orientation() for its ends and the
-  /// triangle.
+  /// True if the segment meets the triangle. from_side, to_side: the results of orientation() for the ends of the
+  /// segment and the triangle's plane.
   static bool segmentMeets(const Place& from, const Place& to, int from_side, int to_side, const Corners& t, int drop) {
     if (from_side * to_side > 0) return false;
     if (from_side == 0 && to_side == 0) {
@@ -149,13 +149,14 @@ class TrianglePair {
     return false;
   }
 
-  /// For coplanar triangles: true if a line through an edge of `t` separates the triangles: all corners of `other` lie
-  /// strictly beyond it, except a common first corner. This quick test suffices for most adjacent triangles on flat
-  /// ground.
+  /// For coplanar triangles: true if the line through an edge of `t` separates them, that is, all corners of `other`,
+  /// except a common first corner, lie strictly beyond this line. This quick test suffices for most adjacent triangles
+  /// on flat ground.
   static bool liesBeyond(int drop, const Corners& t, const Corners& other, size_t shared) {
     const int turn = Signs::orientationAlong(drop, t[0], t[1], t[2]);
     for (size_t k = 0; k < 3; ++k) {
-      // If the triangles share their first corner, only a line through that corner can separate them.
+      // If the triangles share their first corner, only an edge through that corner can separate them: skip the
+      // opposite edge.
       if (shared == 1 && k == 1) continue;
       bool beyond = true;
       for (size_t i = shared; i < 3 && beyond; ++i)
@@ -172,12 +173,14 @@ class TrianglePair {
     return sides[0] == sides[1] ? 2 : sides[0] == sides[2] ? 1 : 0;
   }
 
-  /// True if two triangles intersect. Precondition: each crosses the other's plane, with no corner in it. On the line
-  /// common to both planes, each triangle covers the interval between its two edges at the lone corner; one orientation
-  /// decides which of two edges comes first (Guigue and Devillers, Fast and Robust Triangle-Triangle Overlap Test Using
-  /// Orientation Predicates, 2003).
+  /// True if two triangles intersect. Precondition: each triangle crosses the plane of the other and has no corner in
+  /// it. So each triangle has a lone corner: the only corner on its side of the other triangle's plane. Both triangles
+  /// meet the line common to both planes, each in the interval between its two edges at its lone corner. Whether the
+  /// intervals overlap follows from the order of their ends; the order of two ends is the sign of one orientation
+  /// (Guigue and Devillers, Fast and Robust Triangle-Triangle Overlap Test Using Orientation Predicates, 2003).
   static bool crossingMeet(const Corners& a, size_t a_lone, int a_side, const Corners& b, size_t b_lone, int b_side) {
-    // Rotate the corners so that both lone corners lie in front of the other plane.
+    // Reorders the corners of both triangles, so that each lone corner comes first and lies in front of the plane of
+    // the other triangle.
     const Corners p = {a[a_lone], a[(a_lone + (b_side > 0 ? 2 : 1)) % 3], a[(a_lone + (b_side > 0 ? 1 : 2)) % 3]};
     const Corners q = {b[b_lone], b[(b_lone + (a_side > 0 ? 2 : 1)) % 3], b[(b_lone + (a_side > 0 ? 1 : 2)) % 3]};
     return Signs::orientation(p[0], p[1], q[0], q[1]) >= 0 && Signs::orientation(p[0], p[2], q[0], q[2]) <= 0;
@@ -196,8 +199,9 @@ class TrianglePair {
     return anyEdgeMeets(a, a_sides, b, b_drop) || anyEdgeMeets(b, b_sides, a, a_drop);
   }
 
-  /// True if two triangles that share their first corner meet elsewhere. Then the opposite edge of one meets the other:
-  /// a segment in both triangles that starts at the common corner ends at such an edge.
+  /// True if two triangles that share their first corner meet elsewhere. They do exactly if the edge of one triangle
+  /// opposite to the common corner meets the other triangle: if they meet at any other point, they also meet along the
+  /// segment from the common corner through that point, which ends at such an edge.
   static bool meetBesideCorner(const Corners& a, const Corners& b) {
     const int b1 = Signs::orientation(a[0], a[1], a[2], b[1]), b2 = Signs::orientation(a[0], a[1], a[2], b[2]);
     if (b1 * b2 > 0) return false;

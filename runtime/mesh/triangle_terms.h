@@ -30,7 +30,7 @@ SGM_KERNEL PackedDirection unfoldNormal(int32_t x, int32_t y) {
 
 /// The square root, rounded to the nearest integer. 0 <= x < 2^62.
 SGM_KERNEL int64_t roundedRoot(int64_t x) {
-  // The double is off by at most one, in either direction.
+  // Computed in double, the root may be off by one in either direction.
   const auto root = static_cast<int64_t>(std::sqrt(static_cast<double>(x)) + 0.5);
   const int64_t square = root * root;
   return root + (x > square + root ? 1 : 0) - (x <= square - root && root != 0 ? 1 : 0);
@@ -71,7 +71,7 @@ SGM_KERNEL TriangleTerms termsOf(const Vertex& a, const Vertex& b, const Vertex&
 /// True if the quality, 4 sqrt(3) area / sum of squared sides, is below 0.05 (kSliver in mesh_measures.h). Equivalent
 /// to 4800 square < sides^2.
 SGM_KERNEL bool isSliver(const TriangleTerms& t) {
-  // Both sides are divided by 64, so that the products fit.
+  // Both sides of the inequality are divided by 64, so that the products fit into 64 bits.
   return 75 * t.square < (int64_t{t.sides} * t.sides + 63) >> 6;
 }
 

@@ -29,8 +29,8 @@ namespace triangulation {
 /// The number of triangulations of a polygon of n points: the Catalan numbers.
 inline constexpr std::array<int, 8> kWays{0, 0, 1, 1, 2, 5, 14, 42};
 
-/// Returns the index of the first triangulation of a piece of n points whose apex is its k-th point. Triangulations are
-/// ordered by apex, then by the triangulation of the left piece, then by that of the right piece.
+/// Triangulations of a piece of n points are numbered by apex, then by the triangulation of the left piece, then by
+/// that of the right piece. Returns the number of the first one with its apex at the k-th point.
 constexpr int firstWay(size_t n, size_t k) {
   int way = 0;
   for (size_t earlier = 1; earlier < k; ++earlier) way += kWays[earlier + 1] * kWays[n - earlier];
@@ -70,8 +70,8 @@ SGM_ALWAYS_INLINE inline void unrolled(F&& f) {
 
 }  // namespace triangulation
 
-/// Same as triangulateAnyLoop, for a length known at compile time: has no branches, and triangles share cross products.
-/// point(i) returns the i-th LoopPoint and is called once for each i.
+/// Same as triangulateAnyLoop, but for a length N known at compile time, and faster: it has no branches, and triangles
+/// share cross products. point(i) returns the i-th LoopPoint and is called once for each i.
 template <size_t N, class Load>
 inline uint32_t* triangulateLoopOf(uint32_t* out, Load&& point) {
   using namespace triangulation;

@@ -20,7 +20,7 @@ struct LoopPoint {
   uint32_t vertex;  ///< the value written into the index list
 };
 
-/// Returns the L1 norm of twice the triangle's area vector, the measure of its size.
+/// Returns the measure of a triangle's size: the L1 norm of twice its area vector.
 SGM_KERNEL int32_t triangleMeasure(const LoopPoint& a, const LoopPoint& b, const LoopPoint& c) {
   const int32_t ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
   const int32_t vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
@@ -51,7 +51,8 @@ SGM_KERNEL uint32_t* writeTriangles(const LoopPoint* loop, int n, const uint8_t*
   return out;
 }
 
-/// Triangulates a cube's loop of any length n from 3 to kLongest: writes 3 * (n - 2) indices and returns their end.
+/// Triangulates a loop of a grid cell, of any length n from 3 to kLongest: writes 3 * (n - 2) indices and returns their
+/// end.
 template <int kLongest = kLongestLoop>
 SGM_KERNEL uint32_t* triangulateAnyLoop(const LoopPoint* loop, int n, uint32_t* out) {
   constexpr int kSide = kLongest;
@@ -80,8 +81,8 @@ SGM_KERNEL uint32_t* triangulateAnyLoop(const LoopPoint* loop, int n, uint32_t* 
 }
 
 /// Triangulates a seam's loop, whose points lie in one plane. Among the triangulations with the least total area,
-/// chooses the one whose smallest triangle is largest. The total area is least if no two triangles overlap. A loop
-/// crosses itself if the contours of the two levels cross; it gets the triangles that overlap least. In all else the
+/// chooses the one whose smallest triangle is largest. The total area is least if no two triangles overlap. If the
+/// contours of the two levels cross, the loop crosses itself, and gets the triangles that overlap least. Otherwise the
 /// same as triangulateAnyLoop.
 SGM_KERNEL uint32_t* triangulateFlatLoop(const LoopPoint* loop, int n, uint32_t* out) {
   constexpr int kSide = kLongestLoop;

@@ -34,9 +34,9 @@ SGM_KERNEL Int3 vertexUnits(const ChunkGrid& grid, const Vertex& v) {
           grid.origin.z + localUnits(v.z, grid.cell)};
 }
 
-/// The crossed edge of a body's vertex: the sample at its lower end, and its axis. A vertex never lies on a sample, so
-/// exactly one of its coordinates has a fraction, which gives the axis. Not for seams, whose edges are given by their
-/// keys.
+/// The crossed edge that a body's vertex lies on: the sample at the edge's lower end, and the edge's axis. A vertex
+/// never lies on a sample, so exactly one of its coordinates has a fraction: that coordinate's axis is the edge's axis.
+/// Not for seams: there, the vertex keys contain the edges.
 struct SampleEdge {
   int x, y, z, axis;
   size_t sample() const { return static_cast<size_t>(x + kChunkSamples * (y + kChunkSamples * z)); }

@@ -10,7 +10,8 @@ namespace {
 
 constexpr int kCoarseStep = 2 * kSubcell;
 
-/// Returns the axis along which the vertex lies between two points of a grid with the spacing `step`.
+/// A vertex lies between two neighbouring points of a grid with the spacing `step`. Returns the axis along which they
+/// are neighbours.
 uint8_t axisOf(const std::array<int, 3>& at, int step) { return at[0] % step != 0 ? 0 : at[1] % step != 0 ? 1 : 2; }
 
 }  // namespace

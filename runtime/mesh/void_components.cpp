@@ -10,12 +10,13 @@ namespace {
 
 constexpr size_t kLast = kChunkCells;
 
-/// The blocks that contain a sample, by the sample's coordinate.
+/// For each coordinate of a sample along an axis: the blocks that contain the sample. A sample on the border of two
+/// blocks is in both.
 struct BlockTables {
   std::array<uint8_t, kChunkSamples> low{}, high{};
   std::array<uint64_t, kChunkSamples> bits{};  ///< bit i is set if block i contains the sample
-  /// bit 8 i is set if block i contains the sample; the product with the bits of another axis gives the blocks of a
-  /// square
+  /// bit 8 i is set if block i contains the sample. The product of `bits` for one axis and `rows` for another is a mask
+  /// of the blocks (a, b) of a square that contain the sample: bit a + 8 b is set for each of these blocks.
   std::array<uint64_t, kChunkSamples> rows{};
 
   constexpr BlockTables() {

@@ -33,9 +33,9 @@ struct VoidComponent {
   friend bool operator==(const VoidComponent&, const VoidComponent&) = default;
 };
 
-/// The voids of a chunk; empty if the chunk is solid. First come the voids that touch a face, in the order of their
-/// first samples, then one entry for all voids that touch none. If more than 63 voids touch a face, the last entry
-/// stands for all further voids: separate voids may be merged, but connected ones are never split.
+/// The voids of a chunk; empty if the chunk is solid. The voids that touch a face come first, in the order of their
+/// first samples; then follows one entry for all voids that touch no face. If more than 63 voids touch a face, the last
+/// entry stands for all further voids. So separate voids may share an entry, but connected ones are never split.
 using VoidComponents = std::pmr::vector<VoidComponent>;
 
 /// Returns the voids of a chunk from the signs of its samples (ChunkSamples::signs). Pure.
@@ -45,9 +45,9 @@ VoidComponents voidComponents(std::span<const uint64_t> signs,
 /// Returns the voids of a chunk whose samples all have the same sign.
 VoidComponents voidOfUniform(bool solid, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// Bit i of the result is set if components[i] has a sample in the block that contains `cell` (0..31 on each axis). So
-/// the mask includes the void that contains a position in that cell, and other voids in the same block. 0: all samples
-/// of the block are solid.
+/// Returns a mask: bit i is set if components[i] has a sample in the block that contains `cell` (0..31 on each axis).
+/// So the void of a position in this cell is always in the mask, possibly together with other voids of the same block.
+/// 0: all samples of the block are solid.
 uint64_t voidsAround(std::span<const VoidComponent> components, Int3 cell);
 
 }  // namespace sgm

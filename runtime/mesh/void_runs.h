@@ -74,7 +74,7 @@ class VoidRuns {
 
   uint16_t labelAt(size_t row, int x) const {
     const uint64_t before = starts_[row] & ((uint64_t{2} << x) - 1);
-    // Avoids popcount in the usual case of one run, because it is slow on processors without an instruction for it.
+    // Avoids popcount in the usual case of one run: popcount is slow on processors without an instruction for it.
     const size_t at = (before & (before - 1)) == 0 ? 0 : static_cast<size_t>(std::popcount(before)) - 1;
     return labels_[first_[row] + at];
   }
@@ -89,8 +89,8 @@ class VoidRuns {
       if (z > 0) {
         const size_t below = row - kChunkSamples;
         join(label, below, around);
-        // Joins runs across diagonals. If one of the two other corners of the face is void, the axes connect the
-        // samples anyway, so such samples are left out.
+        // Joins the run with runs across the diagonal of a cell face. This is necessary only where both other corners
+        // of the face are solid: otherwise the samples are connected along the axes anyway.
         if (y > 0) join(label, below - 1, run & ~open_[row - 1] & ~open_[below]);
         if (y < kLast) join(label, below + 1, run & ~open_[row + 1] & ~open_[below]);
       }
@@ -105,7 +105,7 @@ class VoidRuns {
     }
   }
 
-  /// Unites the label with those of the runs of a row that contain one of the samples in the mask.
+  /// Unites the label with the labels of those runs of `row` that contain a sample of the mask `samples`.
   void join(uint16_t& label, size_t row, uint64_t samples) {
     for (uint64_t touched = samples & open_[row]; touched != 0; touched &= touched + (touched & -touched)) {
       const uint16_t other = labelAt(row, std::countr_zero(touched));

@@ -11,17 +11,17 @@
 namespace sgm {
 namespace {
 
-/// True if a vertex may occur several times among the parts to be welded. Parts meet only in the faces of their chunks,
-/// so a vertex on an edge inside its chunk belongs to one part. A feature vertex may always occur several times: a face
-/// vertex may lie off its face, and a part may contain copies of a feature vertex.
+/// True if a vertex may have copies in other parts that are welded. Parts meet only in the faces of their chunks. So an
+/// edge vertex that lies inside its chunk belongs to one part only. A feature vertex may always have copies: a face
+/// vertex may lie off its face, and a part may itself contain copies of a feature vertex.
 bool mayBeOneOfMany(const Vertex& v) {
   if (isFeature(v.kind)) return true;
   constexpr int kEnd = kChunkCells * kSubcell;
   return v.x == 0 || v.x == kEnd || v.y == 0 || v.y == kEnd || v.z == 0 || v.z == kEnd;
 }
 
-/// Returns the keys of the vertices that may occur several times, with their indices among all vertices, sorted by key,
-/// then by index.
+/// Returns the keys of all vertices that may have copies. Each key is stored with the index that the vertex has among
+/// the vertices of all parts. Sorted by key, then by index.
 std::pmr::vector<OrderedKey> sortedBorder(std::span<const PlacedPart> parts, std::pmr::memory_resource* memory) {
   std::pmr::vector<OrderedKey> border(memory);
   uint32_t place = 0;
@@ -34,7 +34,8 @@ std::pmr::vector<OrderedKey> sortedBorder(std::span<const PlacedPart> parts, std
   return border;
 }
 
-/// Converts a position to metres. It is a multiple of 1/256 unit, at most 2^41 of them: exact in a double.
+/// Converts a position to metres. Exact, because the position is at most 2^41 steps of 1/256 unit, which a double can
+/// represent.
 double metres(int32_t chunk_origin, int32_t mesh_origin, int16_t position, int32_t cell) {
   const int64_t steps = (int64_t{chunk_origin} - mesh_origin) * kSubcell + int64_t{position} * cell;
   return static_cast<double>(steps) * (1.0 / (kSubcell * kUnitsPerMetre));
@@ -61,8 +62,8 @@ Result<WorldMesh> weld(std::span<const PlacedPart> parts, Int3 origin, std::pmr:
                                   " vertices, more than 32-bit indices can number; mesh a smaller one"};
   }
 
-  // number: first, for a vertex with the same key as an earlier vertex, the index of the first such vertex, otherwise
-  // kNone; later, the number of the welded vertex
+  // number: first, the index of the first vertex with the same key for each vertex that is a later copy, and kNone for
+  // all other vertices. Later, the number of each vertex in the welded mesh.
   std::pmr::vector<uint32_t> number(vertex_count, kNone, memory);
   size_t welded_count = vertex_count;
   {

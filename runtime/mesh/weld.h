@@ -32,11 +32,11 @@ struct WorldMesh {
       : positions(memory), attributes(memory), keys(memory), indices(memory) {}
 };
 
-/// Welds the bodies and seams of any number of chunks. The order of `parts` does not affect the result: they are sorted
-/// by level, then origin (z, y, x), then number. Vertices are in the order of their first occurrence, with the
-/// attributes of the first copy; triangles follow the order of the parts. A vertex that several parts share appears
-/// once; open edges remain only where no part adjoins. Error: Code::limit if the parts have 2^32 vertices or more in
-/// total.
+/// Welds the bodies and seams of any number of chunks. The order of `parts` does not affect the result, because the
+/// parts are sorted by level, then origin (z, y, x), then number. Vertices are in the order of their first occurrence,
+/// with the attributes of the first copy; triangles follow the order of the parts. A vertex that several parts share
+/// appears once; open edges remain only where no part adjoins. Error: Code::limit if the parts have 2^32 vertices or
+/// more in total.
 Result<WorldMesh> weld(std::span<const PlacedPart> parts, Int3 origin,
                        std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 

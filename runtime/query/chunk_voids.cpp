@@ -10,7 +10,8 @@ namespace {
 
 constexpr size_t kLast = kChunkCells;
 
-/// Writes the void of a run of samples to the faces of the chunk that contain samples of the run.
+/// Takes runs of samples, each with the number of its void. Writes this number plus 1 into ChunkVoids::faces for those
+/// samples of the run that lie in a face of the chunk.
 class FaceWriter {
  public:
   explicit FaceWriter(ChunkVoids& chunk) : chunk_(chunk) {}
@@ -45,7 +46,8 @@ ChunkVoids chunkVoids(std::span<const uint64_t> rows, Int3 owned, std::span<cons
   ChunkVoids chunk{std::pmr::vector<ChunkVoids::Void>(memory),
                    {faces(), faces(), faces(), faces(), faces(), faces()},
                    std::vector<std::optional<uint32_t>>(marks.size())};
-  // The root of a void is its lowest label, so its number is known before other labels of the void are converted.
+  // A void has its lowest label as root, and the loop meets this label first. So the void's number is known when the
+  // loop comes to its other labels.
   std::pmr::vector<uint32_t> number(runs.labels(), memory);
   for (size_t label = 0; label < number.size(); ++label) {
     const size_t root = runs.rootOf(label);

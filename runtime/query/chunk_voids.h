@@ -24,7 +24,8 @@ struct ChunkVoids {
   /// or 0 if the sample is not free. a and b count samples along the other two axes, the lower axis first. Empty if no
   /// void touches the face.
   std::array<std::pmr::vector<uint16_t>, 6> faces;
-  /// for each mark, the index of the void that contains it; nullopt if the mark is not free
+  /// for each of the `marks` (requested samples), the index of the void that contains it; nullopt if the sample is not
+  /// free
   std::vector<std::optional<uint32_t>> marked;
 };
 

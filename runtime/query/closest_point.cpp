@@ -14,11 +14,11 @@ constexpr int kNearBrick = 4;  // edge of a brick in cells; the samples of a bri
 constexpr int64_t kFirstSearch = 16;
 constexpr int64_t kSearchGrowth = 4;
 constexpr double kNoDistance = std::numeric_limits<double>::infinity();
-// the search along the surface ends when no step decreases the distance to the queried place by at least this many
-// units
+// the search along the surface ends when no step brings it nearer to the queried place by at least this many units
 constexpr double kNearest = 0.25;
 
-/// A range of bricks, or a box, that may contain the surface, with a lower bound of its distance.
+/// A range of bricks (cubes of kNearBrick^3 cells), or a box, that may contain the surface; and a lower bound of its
+/// distance from the queried place.
 struct Candidate {
   double lower = 0;
   int rank = 0;  ///< 0: several bricks; 1: one brick; 2: a box
@@ -26,8 +26,8 @@ struct Candidate {
   std::shared_ptr<const PrunedProgram> program;
 
   /// Orders a priority queue: the nearest candidate comes first. Among equally near candidates, bricks come before
-  /// boxes, and then lower coordinates first. So the order in which boxes are found does not depend on the bounds that
-  /// were proven for the bricks around them.
+  /// boxes, and lower coordinates before higher ones. So boxes are found in the same order, whichever bounds were
+  /// proven for the bricks around them.
   friend bool operator<(const Candidate& a, const Candidate& b) {
     return std::tie(b.lower, b.rank, b.box.lo, b.box.hi) < std::tie(a.lower, a.rank, a.box.lo, a.box.hi);
   }
@@ -132,8 +132,8 @@ class SurfaceSearch {
     if (longest > 1) sampleLattice(box.box, (longest + 1) / 2, box.program);
   }
 
-  /// Samples a box at this spacing, including its high faces, and queues those boxes between the samples whose corners
-  /// differ in sign.
+  /// Samples a box at this spacing, including its high faces. Queues each small box between adjacent samples whose
+  /// eight corners differ in sign.
   void sampleLattice(const IntBox& box, int32_t spacing, std::shared_ptr<const PrunedProgram> program) {
     std::array<std::vector<int32_t>, 3> at;
     for (int axis = 0; axis < 3; ++axis) {
@@ -209,8 +209,8 @@ class SurfaceSearch {
     return found;
   }
 
-  /// Bisects the interval from `open` to `closed` along the direction, whose ends differ in sign, to a quarter of a
-  /// unit.
+  /// Bisects an interval along `direction`, from the place `open` to the place `closed` on the other side of the
+  /// surface, down to a quarter of a unit. Updates both ends.
   void cut(const ProgramView& view, const Vector3& direction, double& open, double& closed) {
     while (closed - open > kNearest) {
       const double middle = open + (closed - open) / 2;

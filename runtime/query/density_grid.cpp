@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint32_t kBrick = 8;  // edge of a brick in points; the points of a brick are evaluated together
 constexpr uint32_t kBlock = 4 * kBrick;
-// number of edge lengths of parts: a block of 32 points per edge is halved to 16, and to bricks of 8
+// number of sizes of parts: a block has 32 points per edge; it is halved to 16, and then to bricks of 8
 constexpr size_t kDepths = 3;
 
 /// A box of the grid's points.
@@ -75,12 +75,14 @@ class BlockFill {
 
   DensityFigures figures;
 
-  /// Writes the densities of a part. edge: maximum edge of the part, in points; a part larger than a brick is halved
-  /// along each axis, unless its density is uniform.
+  /// Writes the densities of a part, which has at most `edge` points along each axis. A part larger than a brick is
+  /// halved along each axis, unless its density is proven to be uniform.
   void fill(const ProgramView& view, const Part& part, uint32_t edge, size_t depth = 0) {
     PrunedProgram& pruned = pruned_[depth];
     prune(view, boxOf(grid_, part), pruning_, pruned, Uniform::keep);
-    // The margin of two steps beyond the edge covers the rounding errors of samples and of the products of bounds.
+    // The part is proven full if all of it lies deeper in the solid than the soft edge of the density reaches
+    // (edge_.steps). The margin of two steps covers the rounding errors of the samples, and of the product on the left
+    // side.
     const bool full = pruned.field.hi * static_cast<double>(pruned.q_scale) < -(edge_.steps + 2);
     if (pruned.empty() || full) {
       figures.bricks += bricksOf(part);
@@ -179,7 +181,8 @@ Result<DensityFigures> sampleDensity(const QueryField& field, const DensityGrid&
   size_t error_at = 0;
   uint64_t done = 0;
   bool stopped = false;
-  // After an error, the work continues only for earlier blocks, since the error of the first failing block is reported.
+  // After a failure, the blocks before the failed one are still computed, because the error of the first block that
+  // fails is reported.
   const auto ended = [&](size_t i) {
     const std::lock_guard lock(mutex);
     return stopped || (error && i > error_at);

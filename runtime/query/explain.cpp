@@ -10,7 +10,7 @@
 namespace sgm {
 namespace {
 
-/// A value above the value of any visible shape. It means that the shape is not visible.
+/// Stands for the value of a shape that is not visible; larger than the value of any visible shape.
 constexpr double kNothing = 1e20;
 
 struct Sample {
@@ -65,8 +65,8 @@ class NodeReader {
     return sampleAt(*program, p).value;
   }
 
-  /// Returns the value of an expression. It is measured by how far a displacement by the expression moves the surface
-  /// of a ball.
+  /// Returns the value of an expression at the place. Measures it: displaces the surface of a ball by the expression,
+  /// and returns how far the surface moves.
   double number(uint32_t expr, Int3 p) {
     if (!ball_) ball_.emplace(chunk_);
     std::pmr::vector<Shape>& shapes = ball_->chunk.shapes;
@@ -191,7 +191,7 @@ class NodeReader {
   std::optional<Error> error_;
 };
 
-/// The group that decides the field's value, among those examined so far.
+/// Of the groups examined so far, the group that decides the field's value.
 struct Decision {
   bool any = false;
   uint32_t layer = 0;

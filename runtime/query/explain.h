@@ -18,8 +18,8 @@ struct ExplainedNode {
   /// units for warps
   double measure = 0;
   size_t others = 0;  ///< number of the node's children that do not decide the value and are not listed
-  /// derivation path, in the format of overrides, of the use of a rule that made the node; if an override made the
-  /// node, the path of the use whose block the override replaces
+  /// Derivation path, in the format of overrides, of the rule use that made the node. If an override made the node, the
+  /// path of the rule use whose block it replaces.
   std::string path;
   Span span;  ///< span of the statement in the source text
 };

@@ -1,10 +1,9 @@
 #pragma once
 // Queries of the field itself, without a mesh: ray casts, the nearest surface, walkable floors. Can be called from any
-// thread. The results are the same on every machine, and equally precise at any distance from the origin.
-//
-// Positions, lengths and distances are in units, with fractions. Common errors: invalid_argument (not finite, or
-// outside of the stated range), range (a position outside of the world), limit (too far or too large; the message names
-// the limit), and those of compiling the field.
+// thread. The results are the same on every machine, and equally precise at any distance from the origin. Positions,
+// lengths and distances are in units, and may have fractions. Errors of all functions: invalid_argument (an argument is
+// not finite, or outside of the stated range), range (a position is outside of the world), limit (an argument is too
+// far or too large; the message names the limit), and the errors of compiling the field.
 
 #include <array>
 #include <functional>
@@ -35,7 +34,8 @@ QueryField queryField(const WorldField& world);
 /// A position on the surface.
 struct SurfacePoint {
   std::array<double, 3> position{};
-  std::array<double, 3> normal{};  ///< unit vector that points out of the solid, as for vertices of meshes
+  std::array<double, 3> normal{};  ///< unit normal of the surface, which points out of the solid, like the normals of
+                                   ///< mesh vertices
   double distance = 0;             ///< distance from the queried place or the start of the ray, in units
   uint16_t material = 0, tag = 0;
   bool inside = false;  ///< true if the queried place, or the start of the ray, is solid
@@ -46,20 +46,21 @@ struct SurfacePoint {
 int64_t longestRay(int32_t finest_cell);
 int64_t farthestSurface(int32_t finest_cell);
 
-/// Finds the first solid along the ray within `length`. A ray that starts in the solid hits it at once (inside = true).
-/// The ray finds every solid that it crosses over a length of at least one unit and at least a sixteenth of a cell. So
-/// it misses no wall as thick as a cell, which a mesh of level 0 always shows. The hit lies in the void, less than a
-/// unit from the solid. A ray ends at the end of the world. direction: any length except 0. length: 0 to longestRay().
-///
-/// Interval bounds over whole stretches of the ray limit the steps: empty space costs almost nothing, and the result
-/// does not depend on the steepness of the field. Only stretches that are not proven empty are sampled.
+/// Finds the first solid along the ray, up to the distance `length`. direction: any length except 0. length: 0 to
+/// longestRay(). A ray that starts in the solid hits it at once (inside = true). Otherwise, the hit lies in the void,
+/// less than a unit from the solid. A ray ends at the end of the world. The ray finds every solid in which it runs for
+/// at least one unit and at least a sixteenth of a cell. So it misses no wall as thick as a cell; a mesh of level 0
+/// shows all such walls. Interval bounds over whole stretches of the ray limit the steps: only stretches that are not
+/// proven empty are sampled. So empty space costs almost nothing, and the result does not depend on the steepness of
+/// the field.
 Result<std::optional<SurfacePoint>> rayCast(const QueryField& field, const std::array<double, 3>& from,
                                             const std::array<double, 3>& direction, double length);
 
-/// Finds the surface nearest to a place within `max_distance` (0 to farthestSurface()); nullopt if there is none.
-/// Considers all of the surface that the samples of level 0 show: no part of it is nearer than the result by more than
-/// a quarter of a cell plus a sixty-fourth of the distance. Usually the result is exact to a unit. The returned
-/// position lies on the same side of the surface as the place: in void or, if the place is inside the solid, in solid.
+/// Finds the point of the surface that is nearest to a place, within `max_distance` (0 to farthestSurface()); nullopt
+/// if there is none. Considers all of the surface that the samples of level 0 show. Usually the result is exact to a
+/// unit. In any case, no other part of the surface is nearer by more than a quarter of a cell plus 1/64 of the
+/// distance. The returned position lies on the same side of the surface as the place: in the void or, if the place is
+/// inside the solid, in the solid.
 Result<std::optional<SurfacePoint>> closestPoint(const QueryField& field, const std::array<double, 3>& place,
                                                  double max_distance);
 
@@ -69,9 +70,9 @@ struct Walker {
   double height = 1.8 * kUnitsPerMetre;  ///< height of the walker in units: above 0, at most 256 cells
   /// height in units that the walker can climb or drop from one place to the next; less than `height`
   double step = 0.4 * kUnitsPerMetre;
-  /// minimum y of a floor's unit normal, 0 to 1: the cosine of the steepest slope
+  /// minimum y component of the unit normal of a walkable floor, 0 to 1: the cosine of the steepest slope
   double slope = 0.7071067811865476;
-  /// minimum area of connected floor that makes a box walkable, in square units; 0 or more
+  /// minimum connected floor area, in square units, for WalkableArea::walkable to be true; 0 or more
   double area = 1024.0 * 1024.0;
 };
 

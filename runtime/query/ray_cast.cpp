@@ -7,16 +7,19 @@ namespace sgm {
 
 namespace {
 
-// length of a piece of the ray, for which one program is compiled: the larger of these two lengths
+// The ray is divided into pieces, and a program is compiled for each piece. Length of a piece: the larger of these two
+// lengths.
 constexpr int64_t kPieceUnits = 64 * kUnitsPerMetre, kPieceCells = 128;
 constexpr int64_t kMaxPieces = 64;
-constexpr int64_t kSampledPieceCells = 32;  // length of a piece in cells, if each program samples host fields
+// length of a piece in cells, if the world has host fields, which each program has to sample
+constexpr int64_t kSampledPieceCells = 32;
 // number of samples whose evaluation costs as much as another attempt to prove a stretch of the ray empty
 constexpr int64_t kLeafSteps = 48;
 // distance in units from the end of the world at which the ray ends, so that rounded positions stay inside
 constexpr double kInWorld = 1.0;
 
-/// One ray, as positions that are `step_` apart; the last one is at the ray's length.
+/// One ray, as a row of positions at distances of `step_`. The last position is the end of the ray, so the last
+/// distance may be shorter.
 class RayWalk {
  public:
   RayWalk(const QueryField& field, const SplitPosition& from, const Vector3& direction, double length)

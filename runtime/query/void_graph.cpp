@@ -77,7 +77,7 @@ void VoidGraph::join(const OpenFace& low, const FaceVoids& high, int axis, Int3 
   std::pair<uint32_t, uint32_t> last{};
   Portal* portal = nullptr;
   for (size_t i = 0; i < high.size(); ++i) {
-    // Both chunks contain this sample, so it is free in both or in neither.
+    // Both chunks contain this sample, so it suffices to test whether it is free in one of them.
     if (high[i] == 0) continue;
     const std::pair<uint32_t, uint32_t> pair{low.first + low.voids[i] - 1, first_.back() + high[i] - 1};
     if (portal == nullptr || pair != last) {
@@ -134,8 +134,9 @@ std::vector<uint32_t> VoidGraph::chunksOfWay(uint32_t a, Int3 from, uint32_t b, 
   const Place start{static_cast<double>(from.x), static_cast<double>(from.y), static_cast<double>(from.z)};
   const Place end{static_cast<double>(to.x), static_cast<double>(to.y), static_cast<double>(to.z)};
   const std::vector<std::vector<uint32_t>> portals = portalsByVoid();
-  // A* search (Hart, Nilsson, Raphael), whose lower bound is the length of the straight line to the end. A step is a
-  // portal and the side to which it leads.
+  // A* search (Hart, Nilsson, Raphael). A step of the search leads through a portal to one of the portal's two sides.
+  // The number of the step is 2 * portal + side. The lower bound of the remaining cost is the straight distance to the
+  // end.
   constexpr uint32_t kFirstStep = std::numeric_limits<uint32_t>::max();
   std::vector<double> cost(2 * portals_.size(), std::numeric_limits<double>::infinity());
   std::vector<uint32_t> before(2 * portals_.size(), kFirstStep);
@@ -152,7 +153,8 @@ std::vector<uint32_t> VoidGraph::chunksOfWay(uint32_t a, Int3 from, uint32_t b, 
       queue.push({there + between(portal.middle, end), there, next});
     }
   };
-  // The path can end in any step that leads into b. `best` is the least total cost of such a path found so far.
+  // The path may end in any step that leads into the void b. `best` is the total cost of the cheapest path to b found
+  // so far.
   double best = a == b ? between(start, end) : std::numeric_limits<double>::infinity();
   uint32_t last = kFirstStep;
   leave(a, start, 0, kFirstStep);

@@ -19,8 +19,9 @@ struct RegionVoid {
   friend auto operator<=>(const RegionVoid&, const RegionVoid&) = default;
 };
 
-/// A graph that is built chunk by chunk: it stores the voids, and the contacts between voids of adjacent chunks. Of the
-/// samples, it stores only the faces of the last layer of chunks: two bytes for each of a face's 1,089 samples.
+/// A graph that is built chunk by chunk: it stores the voids, and the contacts between voids of adjacent chunks. It
+/// keeps no samples except those in the high faces of the last layer of chunks, with two bytes for each of a face's
+/// 1,089 samples.
 class VoidGraph {
  public:
   /// order: the order of the region's chunks. ways: whether to store the data that chunksOfWay() needs.
@@ -32,7 +33,7 @@ class VoidGraph {
   /// Converts a void's number in the chunk that was added last to its number in the graph.
   uint32_t numberOf(uint32_t void_in_chunk) const { return first_.back() + void_in_chunk; }
 
-  // The following functions require that all chunks of the region were added.
+  // Precondition of all functions below: add() was called for all chunks of the region.
 
   bool joined(uint32_t a, uint32_t b) { return rootOf(a) == rootOf(b); }
   /// Returns the number of samples in the whole connected void that contains the chunk's void `number`.
@@ -73,7 +74,8 @@ class VoidGraph {
   std::pmr::vector<uint32_t> samples_;  ///< number of samples of each void in its own chunk
   std::pmr::vector<uint8_t> open_;      ///< for each void: 1 if it touches the region's border
   std::pmr::vector<Portal> portals_;    ///< contacts between voids; empty unless `ways` is set
-  /// For each axis: the high faces of the last chunks, until the next chunk along that axis is added.
+  /// For each axis: high faces of the chunks that were added last. Each face waits here until the next chunk along the
+  /// axis is added.
   std::array<std::pmr::vector<OpenFace>, 3> awaiting_;
 };
 

@@ -18,17 +18,19 @@ constexpr int kRadiiTogether = 16;  // number of agent sizes that one pass over 
 // number of chunks whose voids are computed in parallel before they are added to the graph
 constexpr size_t kChunksTogether = 64;
 
-/// An end of a path: its sample (nullopt in rock), and the distance from that sample to the nearest solid sample.
+/// One end of a path: the sample where it begins or ends (nullopt if the end lies in rock), and its distance from the
+/// solid.
 struct End {
   std::optional<Int3> sample;
-  int clearance = 0;  ///< squared distance to the nearest solid sample, in cells
+  int clearance = 0;  ///< squared distance from `sample` to the nearest solid sample, in cells
 };
 
 /// The result of one pass over the region for agents of one size.
 struct Survey {
-  int need = 1;  ///< a sample is free if its squared clearance, in cells, is at least this
+  int need = 1;  ///< a sample is free if the square of its clearance, in cells, is at least this number
   VoidGraph graph;
-  std::array<std::optional<uint32_t>, 2> ends{};  ///< the voids that contain the two ends of the path
+  std::array<std::optional<uint32_t>, 2> ends{};  ///< index of the void that contains each end of the path; nullopt if
+                                                  ///< an end lies in no void
 
   bool joined() { return ends[0] && ends[1] && graph.joined(*ends[0], *ends[1]); }
 };
@@ -146,7 +148,8 @@ class VoidSearch {
       const double sample = std::floor(place[static_cast<size_t>(axis)] / field_.cell);
       low[axis] = std::min(static_cast<int32_t>(sample), high_[axis] * kChunkCells - 1);
     }
-    // The eight samples around a place always lie in the same chunk.
+    // The eight samples around a place always lie in one chunk: adjacent chunks both contain the samples in their
+    // common face.
     const Int3 chunk = chunkOf(low);
     if (const Result<void> added = window_.add(chunksAround(chunk, 1), jobs_); !added) return added.error();
     const std::pmr::vector<uint16_t> clearance = window_.clearance(chunk, kMaxNeed);
@@ -168,21 +171,21 @@ class VoidSearch {
     return end;
   }
 
-  /// True if a squared distance in cells is at most the square of a length in units. All code uses this one comparison,
-  /// so that a reported length gives the same result when it is used as a query.
+  /// True if a distance, given by its square in cells, is at most a length in units. All code compares distances with
+  /// this function, so that a length which the search reports gives the same result when it is used in another query.
   bool isAsNear(int square, double length) const { return length * length >= squaredOf(square); }
   double squaredOf(int square) const { return static_cast<double>(field_.cell) * field_.cell * square; }
 
-  /// Returns the smallest squared distance, in cells, that a free sample must have to the nearest solid sample: the
-  /// smallest one that exceeds the agent's radius.
+  /// Returns the clearance that the agent needs: the smallest squared distance to a solid sample, in cells, that
+  /// exceeds the square of the agent's radius. A sample with at least this clearance is free.
   int needed() const {
     int need = 1;
     while (need < kMaxNeed && isAsNear(need, question_.radius)) ++need;
     return need;
   }
 
-  /// Returns the smallest length in units for which isAsNear() holds at this squared distance in cells: the root, or a
-  /// floating-point number next to it.
+  /// Returns the smallest length in units that counts as at least the distance whose square, in cells, is `square`. The
+  /// comparison is that of isAsNear(), so the result is the square root or a floating-point number next to it.
   double leastAsFar(int square) const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     double least = std::sqrt(squaredOf(square));
@@ -192,8 +195,8 @@ class VoidSearch {
     return least;
   }
 
-  /// Returns values of `need`, evenly spaced and ascending, between the largest one known to have a path and the
-  /// smallest one known to have none.
+  /// Returns the values of `need` that the next pass tries, ascending and evenly spaced. They lie above the largest
+  /// value for which a path is known to exist, and below the smallest value for which none exists.
   std::vector<int> between() const {
     const int open = first_failing_ - last_holding_ - 1, picked = std::min(open, kRadiiTogether);
     std::vector<int> needs;
@@ -201,8 +204,8 @@ class VoidSearch {
     return needs;
   }
 
-  /// Makes one pass over the region for several values of `need`; returns the results in ascending order of need. way:
-  /// the value for which the data of a path is stored.
+  /// Makes one pass over the region for several values of `need`. Returns one result per value, in ascending order of
+  /// need. way: the value of `need` whose graph also stores the data for finding a path; 0: no graph stores them.
   Result<std::vector<Survey>> look(std::vector<int> needs, int way) {
     std::sort(needs.begin(), needs.end());
     needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
@@ -218,7 +221,8 @@ class VoidSearch {
         seen.insert(seen.end(), around.begin(), around.end());
       }
       window_.dropUnless([&](Int3 chunk) {
-        // the last chunk, in the order of processing, whose voids depend on the signs of this chunk
+        // The voids of a chunk depend on the signs of the chunks around it. `last` is the last chunk, in the order of
+        // processing, whose voids depend on `chunk`.
         Int3 last;
         for (int axis = 0; axis < 3; ++axis)
           last[axis] = std::clamp(chunk[axis] + rings - low_[axis], 0, count_[axis] - 1);
@@ -272,7 +276,8 @@ class VoidSearch {
     return voids;
   }
 
-  /// Makes further passes over the region until the largest need that has a path is known.
+  /// Makes further passes over the region until it is known which is the largest value of `need` for which a path
+  /// exists.
   Result<void> narrow(std::vector<Survey>& looks) {
     learn(looks);
     for (std::vector<int> needs = between(); !needs.empty(); needs = between()) {
@@ -329,8 +334,8 @@ class VoidSearch {
   /// the region in chunks: low_ to high_ (excluded), and the number of chunks along each axis
   Int3 low_, high_, count_;
   std::array<End, 2> ends_;
-  int last_holding_ = 0;   ///< the largest need known to have a path
-  int first_failing_ = 1;  ///< the smallest need known to have no path
+  int last_holding_ = 0;   ///< the largest value of `need` for which a path is known to exist
+  int first_failing_ = 1;  ///< the smallest value of `need` for which no path is known to exist
 };
 
 }  // namespace

@@ -4,9 +4,11 @@
 // Works on the samples of level 0, one cell apart. The agent is a ball. A sample is free if no solid sample, inside or
 // outside of the region, is within the agent's radius (mesh/clearance.h); with radius 0 every void sample is free. Free
 // samples connect along the axes and across the diagonals of faces, as the mesh connects its voids
-// (region/components.h), and a path goes from sample to connected sample within the region. So a path is valid for the
-// ball only approximately: between two samples of the path, the nearest solid sample may be up to 0.71 cells nearer
-// than at the samples; and the surface lies less than 1.74 cells, usually less than one, in front of that solid sample.
+// (region/components.h). A path goes from sample to connected sample within the region.
+//
+// A path is valid for the ball only approximately, for two reasons. Between two samples of the path, the nearest solid
+// sample may be up to 0.71 cells nearer than at the samples. And the surface lies less than 1.74 cells, usually less
+// than one, in front of that solid sample.
 //
 // A place is represented by the nearest void sample of the eight around it; if all eight are solid, the place lies in
 // rock.
@@ -51,12 +53,12 @@ struct VoidWay {
   /// The distance from the sample of each end to the nearest solid sample, in units, at most kMaxClearance cells; 0 in
   /// rock. Rounded up: an agent with this radius does not fit there.
   double from_clearance = 0, to_clearance = 0;
-  /// If requested: the smallest radius, in units, for which there is no path; a path exists for every smaller radius.
-  /// 0: there is no path for any radius. Exact: the next smaller floating-point number has a path. kMaxClearance cells
-  /// stand for all larger values, too.
+  /// Filled in if requested: the smallest radius, in units, for which there is no path; a path exists for every smaller
+  /// radius. 0: there is no path for any radius. Exact: the next smaller floating-point number has a path. The value
+  /// kMaxClearance cells also stands for all larger values.
   double widest = 0;
-  /// For each end, the number of samples in the void that contains it, for an agent of this radius; 0 if the place is
-  /// not free.
+  /// For each end of the path: the number of samples in the void that contains the end, for an agent of the requested
+  /// radius; 0 if the agent does not fit there.
   uint64_t from_samples = 0, to_samples = 0;
 };
 

@@ -14,7 +14,9 @@ namespace {
 constexpr int kSide = kChunkSamples;
 constexpr size_t kSamples = size_t{kSide} * kSide * kSide;
 constexpr uint64_t kNotReached = std::numeric_limits<uint64_t>::max();
-constexpr uint8_t kStart = 27;        // marks a sample where a walk enters the chunk, instead of the number of a step
+// An entry of Steps for a sample at which a walk enters the chunk. For all other samples, the entry is the number of a
+// step, 0..26.
+constexpr uint8_t kStart = 27;
 constexpr size_t kChunksAtOnce = 64;  // number of chunks in a group that is processed together
 // costs of a step along an axis, and of a step across a face's diagonal: their ratio is the square root of 2, to 5 in
 // 100,000
@@ -76,8 +78,8 @@ class ChunkWalks {
     }
   }
 
-  /// Returns the entries into the adjacent chunk on this side: the reached samples of the common face, as indices in
-  /// the adjacent chunk.
+  /// Returns the entries into the adjacent chunk on this side: those samples of the common face that a walk reaches,
+  /// with their indices in the adjacent chunk.
   Entries entriesTo(Int3 side) const {
     Entries found(cost_.get_allocator());
     for (size_t i = 0; i < kSamples; ++i) {
@@ -97,8 +99,8 @@ class ChunkWalks {
   std::pmr::vector<uint64_t> cost_;
 };
 
-/// Processes the chunks of a walk in groups: forwards, to find the entries into each group; then backwards, to trace
-/// the walk.
+/// Finds a shortest walk through a sequence of chunks, which are processed in groups. A first pass, forwards, finds the
+/// entries into each group. A second pass, backwards, traces the walk.
 class Walk {
  public:
   Walk(SignWindow& window, JobSystem& jobs, std::span<const Int3> chunks, int need, std::pmr::memory_resource* memory,
@@ -107,7 +109,8 @@ class Walk {
 
   Result<std::vector<Int3>> between(Int3 from, Int3 to) {
     const size_t last = (chunks_.size() - 1) / kChunksAtOnce;
-    // The last group is visited only once, since its steps are still in memory when the walk is traced backwards.
+    // The second pass skips the computation for the last group: the steps of this group are still in memory from the
+    // first pass.
     total_ = chunks_.size() + last * kChunksAtOnce;
     std::vector<Entries> entries;
     entries.emplace_back(memory_).push_back({0, static_cast<uint32_t>(indexIn(0, from))});
@@ -137,8 +140,8 @@ class Walk {
  private:
   size_t indexIn(size_t chunk, Int3 sample) const { return indexOf(minus(sample, firstSampleOf(chunks_[chunk]))); }
 
-  /// Computes the steps in the chunks of a group. entries: the entries into the group's first chunk; receives the
-  /// entries into the chunk after the group.
+  /// Computes the steps in the chunks of a group. entries: on entry, the entries into the group's first chunk; on
+  /// return, the entries into the chunk after the group.
   Result<void> look(size_t group, Entries& entries, std::vector<Steps>& steps) {
     const size_t first = group * kChunksAtOnce;
     const std::span<const Int3> some = chunks_.subspan(first, std::min(kChunksAtOnce, chunks_.size() - first));

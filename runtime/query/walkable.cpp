@@ -20,7 +20,7 @@ class WalkGrid {
         walker_(walker),
         solid_(field.memory),
         floors_(field.memory) {
-    // The largest rise, per unit of horizontal distance, of a floor within the walker's slope.
+    // The largest rise of a floor, per unit of horizontal distance, that the walker's slope allows.
     const double flat = walker.slope * walker.slope;
     rise_ = flat > 0 ? std::sqrt((1 - flat) / flat) : 1e9;
     const auto margin = static_cast<int64_t>(std::ceil(walker.radius)) + cell_;
@@ -122,8 +122,8 @@ class WalkGrid {
     return {};
   }
 
-  /// True if a column has no solid sample strictly between two heights above the floor. low, high: these heights in
-  /// units.
+  /// True if column (x, z) has no solid sample strictly between the heights `low` and `high` (in units) above the
+  /// floor.
   bool clear(int64_t x, int64_t z, const Floor& floor, double low, double high) const {
     const auto first = static_cast<int64_t>(std::floor((floor.height + low) / cell_)) + floor.y + 1;
     const auto last = static_cast<int64_t>(std::ceil((floor.height + high) / cell_)) + floor.y - 1;
@@ -185,7 +185,7 @@ class WalkGrid {
     return area;
   }
 
-  /// Returns the side faces of the box within one cell of this column.
+  /// Returns the side faces of the box that are within one cell of this floor's column.
   uint8_t sidesOf(const Floor& floor) const {
     const auto onAxis = [&](int axis, int64_t at) {
       const int64_t place = (first_[static_cast<size_t>(axis)] + at) * cell_;

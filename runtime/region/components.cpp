@@ -106,7 +106,7 @@ void ComponentCounter::retire() {
     }
   }
   for (uint32_t i = 0; i < open_; ++i) {
-    // Only runs of the new plane can connect pieces, so a piece without such a run is complete.
+    // Only runs of the new plane can still connect pieces. So a piece without a run in this plane is complete.
     const uint32_t number = number_[rootOf(i)];
     if (number != kUnseen) {
       add(pieces[number].piece, pieces_[i].piece);

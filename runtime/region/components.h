@@ -30,8 +30,8 @@ struct Piece {
   friend bool operator==(const Piece&, const Piece&) = default;
 };
 
-/// The pieces of a block, each list sorted by the number of samples, smallest first; equally large ones by their lowest
-/// corner (z, then y, then x).
+/// The pieces of a block. Each list is sorted by the number of samples, smallest first; equally large pieces are sorted
+/// by their lowest corner (z, then y, then x).
 struct Pieces {
   std::vector<Piece> solid, air;
 
@@ -68,15 +68,17 @@ class ComponentCounter {
   };
   struct Plane {
     std::pmr::vector<Run> runs;
-    std::pmr::vector<size_t> first;  ///< index of the first run of each row, and the end of the last row
+    /// for each row, the index of its first run; as the last element, the end of the last row's runs
+    std::pmr::vector<size_t> first;
 
     explicit Plane(std::pmr::memory_resource* memory) : runs(memory), first(memory) {}
     std::span<const Run> row(size_t y) const { return std::span(runs).subspan(first[y], first[y + 1] - first[y]); }
   };
 
   void findRuns(std::span<const uint64_t> signs);
-  /// Joins the pieces of runs of two rows that overlap along x. diagonal: 1 if void runs are also joined where one ends
-  /// directly before the other begins; otherwise 0. solid: whether to join solid runs, too.
+  /// Joins the pieces of two rows, run by run: runs of equal sign that overlap along x belong to one piece. diagonal: 1
+  /// if two void runs are also joined where one ends directly before the other begins; otherwise 0. solid: whether to
+  /// join solid runs, too.
   void joinRows(std::span<const Run> a, std::span<const Run> b, uint32_t diagonal, bool solid);
   void join(uint32_t a, uint32_t b);
   uint32_t rootOf(uint32_t piece);

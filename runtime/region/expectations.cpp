@@ -46,8 +46,8 @@ WantedMeasures wantedFor(const Program& program, std::span<const uint32_t> state
   return wanted;
 }
 
-/// Converts the lengths of a piece to units and its size to m3. The box of the result contains the cubes around the
-/// piece's samples.
+/// Converts a piece from samples to units: its size becomes a volume in m3, and its box contains the cubes around its
+/// samples.
 MeasuredPiece placed(const Piece& piece, const RegionMeasures& region) {
   MeasuredPiece out;
   out.volume = static_cast<double>(piece.samples) * region.sample;
@@ -128,8 +128,8 @@ class Evaluator {
   }
 
  private:
-  /// Groups statements about the same rule (or none) and the same region, in the order of the first statement of each
-  /// group. Also sets the regions of the outcomes.
+  /// Groups the statements that have the same rule (or none) and the same region; each group can share measurements.
+  /// Groups are in the order of their first statements. Also sets the region of each statement's outcome.
   std::vector<std::vector<uint32_t>> together() {
     std::vector<std::vector<uint32_t>> sets;
     for (uint32_t s = 0; s < program_.expectations.size(); ++s) {
@@ -203,7 +203,8 @@ class Evaluator {
       }
       keep(s, std::move(measured));
     }
-    // If the region meets too many cells of a layer to visit all of them, notes() fails, and no notes are returned.
+    // Code::limit means that the region meets too many cells of a layer to visit all of them. Then there are no notes,
+    // which is not an error.
     const Result<std::vector<DeriveNote>> notes = world.notes(measures->extent, *cell);
     if (!notes && notes.error().code != Code::limit) return notes.error();
     if (notes) result_.notes.insert(result_.notes.end(), notes->begin(), notes->end());

@@ -74,9 +74,9 @@ struct Outcome {
   /// the measured region, enlarged to whole chunks unless uses of a rule are measured; hi is excluded
   IntBox region;
   int32_t cell = 0;  ///< cell edge in units
-  /// number of chunks meshed for this statement; statements about the same region share these chunks
+  /// number of chunks meshed for this statement; another statement about the same region counts the same chunks again
   uint64_t chunks = 0;
-  std::vector<Measured> measured;  ///< one element; with `per`, one element for each use of the rule
+  std::vector<Measured> measured;  ///< the measurements: one or, with `per`, one for each use of the rule
   std::optional<Error> error;      ///< set if the statement could not be evaluated
   /// true if all elements of `measured` hold and there is no error; for a report, true if there is no error
   bool holds() const;
@@ -84,7 +84,8 @@ struct Outcome {
 
 struct Evaluation {
   std::vector<Outcome> outcomes;  ///< one for each element of Program::expectations, in the same order
-  std::vector<DeriveNote> notes;  ///< notes on what derivation left out in the regions that were measured as a whole
+  /// notes on content that derivation left out; only of regions that were measured as a whole
+  std::vector<DeriveNote> notes;
 };
 
 /// Evaluates all statements of a grammar. Pure. Statements about the same region share its meshes. Errors:

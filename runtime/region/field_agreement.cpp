@@ -26,8 +26,8 @@ constexpr double kBend = 0.25;
 /// The smallest length of a gradient at which |f| / |grad f| is meaningful.
 constexpr double kLeastGradient = 1e-6;
 
-/// Returns the step of the gradients in units: an eighth of a cell, but so large that the rounding of warped positions
-/// to whole units does not matter.
+/// Returns the step for the central differences, in units. It is an eighth of a cell, but at least 16 units or half a
+/// cell, whichever is less: a shorter step would suffer from the rounding of warped positions to whole units.
 int32_t stepFor(int32_t cell) { return std::max(cell / 8, std::min(16, std::max(cell / 2, 1))); }
 
 /// A vertex's exact position in units, and the nearest position in whole units.
@@ -67,8 +67,8 @@ Sample sampleAt(const ProgramView& field, const Place& place, int32_t step) {
     const double bend = (behind - 2 * middle + before) / step;
     bends += bend * bend;
   }
-  // Corrects the value to first order. The vertex is less than a unit away from the whole position, so curvature is
-  // negligible.
+  // The field was evaluated at the position rounded to whole units. Adds, to first order, the change of the field from
+  // there to the vertex. The distance is less than a unit, so curvature is negligible.
   sample.value = middle + dot(sample.gradient,
                               place.exact - Point{double(place.whole.x), double(place.whole.y), double(place.whole.z)});
   const double size = length(sample.gradient);
@@ -77,7 +77,7 @@ Sample sampleAt(const ProgramView& field, const Place& place, int32_t step) {
   return sample;
 }
 
-/// The range of vertices in one box, in an array sorted by box.
+/// One box, and the range of its vertices in an array that is sorted by box.
 struct Box {
   Int3 number;
   size_t begin = 0, end = 0;
@@ -111,8 +111,8 @@ Result<std::vector<Sample>> samplesOf(const WorldField& world, JobSystem& jobs, 
     }
     const Result<std::shared_ptr<const FieldProgram>> field = world.compile(box.grown(step), level);
     if (!field) {
-      // If several boxes fail, the error of the first box is reported, so that the result does not depend on the speed
-      // of threads.
+      // If several boxes fail, keeps the error of the first box, so that the result does not depend on the speed of
+      // threads.
       const std::lock_guard lock(mutex);
       if (!failed || b < failed->first) failed.emplace(b, field.error());
       return;
@@ -125,7 +125,8 @@ Result<std::vector<Sample>> samplesOf(const WorldField& world, JobSystem& jobs, 
   return samples;
 }
 
-/// Returns the smallest value such that at least this share of all values is not larger. sorted: all values, ascending.
+/// Returns the quantile of a set of values: the smallest value v such that at least this share of the values is <= v.
+/// sorted: the values, ascending. 0 if there is no value.
 double quantile(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return 0;
   const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(sorted.size())));

@@ -19,25 +19,28 @@ struct NormalAngles {
   }
 };
 
-/// The result of the comparison. The field is evaluated by the reference evaluator in double precision
-/// (field/reference.h), and its gradient by central differences over `step`. Neither shares code with meshing, whose
-/// errors are measured.
+/// The result of the comparison. The reference evaluator (field/reference.h) computes the field in double precision;
+/// the gradient is a central difference with the distance `step`. Neither shares code with meshing, so they can show
+/// the errors of the mesh.
 struct FieldAgreement {
-  int32_t step = 0;  ///< distance in units from a vertex to the samples on each side that give the gradient
+  /// step of the central differences that give the gradient: distance in units from the vertex to the samples on each
+  /// side
+  int32_t step = 0;
   uint64_t vertices = 0;
   /// Numbers of vertices for which no normal is correct. bent: vertices in a crease, where the gradient turns by more
   /// than a quarter of its length within a step; flat: vertices on a plateau, without a gradient. The angle statistics
   /// exclude both.
   uint64_t bent = 0, flat = 0;
-  uint64_t bent_inward = 0;  ///< number of bent vertices whose normal in the mesh points into the solid
+  uint64_t bent_inward = 0;  ///< number of the vertices in `bent` whose normal in the mesh points into the solid
   NormalAngles normals;      ///< angles of the vertices' normals
-  NormalAngles faces;        ///< angles of the triangles' normals, compared with the gradient at each of their corners
+  /// angles of the triangles' normals; each is compared with the gradients at the triangle's three corners
+  NormalAngles faces;
   /// Statistics of |f| at the vertices, in units. This is their distance from the surface, if the field is a distance.
   double residual_mean = 0, residual_p99 = 0, residual_max = 0;
   /// position of the vertex with the value residual_max, in metres from the mesh's origin
   std::array<double, 3> farthest{};
-  /// Statistics of |f| / |grad f|, in units: the distance from the surface to first order, however steep the field is.
-  /// Includes only those vertices that the angle statistics include.
+  /// Statistics of |f| / |grad f|, in units. To first order, this is the distance from the surface, whether the field
+  /// is steep or not. Includes only those vertices that the angle statistics include.
   double offset_mean = 0, offset_p99 = 0, offset_max = 0;
 };
 

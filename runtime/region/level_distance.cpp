@@ -29,7 +29,8 @@ Point placeFrom(Int3 units, Int3 origin) {
   return place;
 }
 
-/// Returns the range without a margin of width `border` at those faces of the range that the surface reaches.
+/// Returns the range with each of its faces that the surface reaches moved inwards by `border`. At such a face, a cut
+/// may have removed parts of the surface.
 Range innerOf(const std::vector<Point>& points, Range range, double border) {
   Range inner = range;
   for (int axis = 0; axis < 3; ++axis) {
@@ -69,7 +70,8 @@ Result<LevelDistance> levelDistance(const WorldMesh& fine, const IntBox& extent,
   result.coarse_left_out = second.triangles.size() - back.size();
 
   if ((!there.empty() && second.triangles.empty()) || (!back.empty() && first.triangles.empty())) return result;
-  // The surface nearest to a triangle may lie in the margin, so all of the other mesh is searched.
+  // Only the triangles in the inner range are tested, but against all triangles of the other mesh: the nearest of them
+  // may lie in the margin.
   Result<measure::OneSided> one =
       measure::distanceFrom({first.points, there}, {second.points, second.triangles}, settings, jobs);
   if (!one) return one.error();

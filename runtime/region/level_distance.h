@@ -20,12 +20,14 @@ namespace sgm {
 inline constexpr double kLevelBound = 2.598076211353316;
 
 struct LevelDistance {
-  /// The distances from the fine mesh to the coarse one and back, in metres. nullopt if only one of the meshes has
-  /// triangles to test. If the coarse mesh has none, all parts are too thin for its level.
+  /// The distances from the fine mesh to the coarse one and back, in metres. nullopt if one of the meshes has triangles
+  /// to test, but the other mesh has no triangles at all. If the coarse mesh has no triangles, all parts of the solid
+  /// are too thin for its level.
   std::optional<measure::Hausdorff> distance;
   uint64_t fine_triangles = 0, coarse_triangles = 0;  ///< tested triangles
-  /// Numbers of triangles that were not tested, because a corner lies outside of the region, or less than kBorderCells
-  /// coarse cells from a face of the region where the surface is cut: the surface nearest to them may lie outside.
+  /// Numbers of triangles that were not tested. Such a triangle has a corner outside of the region, or less than
+  /// kBorderCells coarse cells from a face of the region where the surface is cut: the nearest part of the other mesh's
+  /// surface may lie outside of the region.
   uint64_t fine_left_out = 0, coarse_left_out = 0;
 };
 

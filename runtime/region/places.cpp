@@ -29,7 +29,8 @@ const Layer* coarsestLayer(const Program& program) {
   return coarsest;
 }
 
-/// Extends the box along an axis to the proven bounds of all layers.
+/// Extends the box, along one axis, to the bounds that are proven for the shapes of all layers. Error: limit if they
+/// are unbounded there.
 Result<void> addBounds(const Program& program, int axis, IntBox& box) {
   IntBox all;
   for (const Layer& layer : program.layers) all = all.joined(layer.bound);

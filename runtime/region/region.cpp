@@ -28,7 +28,8 @@ uint64_t signsOfRow(const ChunkMesh& mesh, size_t y, size_t z) {
   return mesh.solid_samples > 0 ? ~uint64_t{0} : 0;
 }
 
-/// Adds the planes of samples of a layer of chunks to the counter, including the highest plane if it is the last layer.
+/// Reads the samples of a layer of chunks plane by plane, and adds the planes to a ComponentCounter. Adds the highest
+/// plane of a layer only for the last layer, since otherwise it is the lowest plane of the next layer.
 class PlaneReader {
  public:
   PlaneReader(size_t nx, size_t ny, std::pmr::memory_resource* memory)
@@ -89,7 +90,8 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
     };
     Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, backend, jobs, requests, layer_progress);
     if (!chunks) return chunks.error();
-    // If progress cancels after the last chunk of a layer, meshChunks() succeeds, but the region is not complete.
+    // If the progress callback cancels after the last chunk of this layer, meshChunks() still succeeds. But the layers
+    // after this layer are missing then, so the region is cancelled.
     if (stopped && z + 1 < counts[2]) return Error{Code::cancelled, "meshing was cancelled"};
     if (planes) planes->add(*chunks, z + 1 == counts[2]);
     if (z == 0) result.extent.lo = chunks->front().grid.origin;

@@ -9,8 +9,8 @@
 
 namespace sgm {
 
-/// Selects measures that cost more than sums over the triangles. A device computes sums without downloading meshes,
-/// whereas topology needs all meshes of the region at once, and components need the signs of all samples.
+/// Selects the measures that cost more than sums over the triangles. For sums, a device need not download meshes. But
+/// topology needs all meshes of the region at once, and components need the signs of all samples.
 struct WantedMeasures {
   bool topology = false;
   bool components = false;  ///< count the connected pieces of solid and void

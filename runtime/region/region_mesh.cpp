@@ -70,7 +70,8 @@ Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSyst
     ChunkKey root = request.key;
     while (root.level < tree.top()) root = parentOf(root);
     if (!coarsest.contains(root)) continue;
-    // The border of the region cuts the surface, so no seam closes the surface towards space that is not meshed.
+    // The surface stays open at the region's border, which cuts it. So the outermost chunks get no seam to the virtual
+    // neighbours beyond.
     if (request.outermost) request = {request.key, 0, Neighbourhood{}};
     request.sharp = sharp;
     requests.push_back(request);

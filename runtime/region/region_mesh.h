@@ -14,7 +14,7 @@ struct RegionMesh {
   /// number of solid samples, including those on the region's low faces, but not those on its high faces: 32^3 samples
   /// per chunk are counted
   uint64_t solid_samples = 0;
-  /// number of the surface's polygons in single cells (loops) that were not sharpened, because that would make the
+  /// number of loops (the surface's polygons in single cells) without sharp features, because these would make the
   /// surface invalid
   uint64_t rounded = 0;
   ContentHash hash;  ///< hash of the set of the chunks' meshes (hashParts)
@@ -31,9 +31,9 @@ Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSyst
                               int level, uint64_t max_chunks, bool sharp, const Progress& progress = {});
 
 /// Meshes a region in chunks of several levels: the chunks of the tree's coarsest level that meet the region, split as
-/// in the tree. solid_samples then adds up samples of all levels, although they stand for different volumes.
-/// Precondition: the tree satisfies its rules, and all virtual nodes that meet the region, or touch a node that meets
-/// it, are split, except at the ends of the world. Errors: those of the other meshRegion.
+/// in the tree. solid_samples is then a sum over all levels, although samples of different levels stand for different
+/// volumes. Precondition: the tree satisfies its rules, and all virtual nodes that meet the region, or touch a node
+/// that meets it, are split, except at the ends of the world. Errors: those of the other meshRegion.
 Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region,
                               const Octree& tree, uint64_t max_chunks, bool sharp, const Progress& progress = {});
 

@@ -63,8 +63,8 @@ class PlacedMesh {
     return materials;
   }
 
-  /// Returns the label of the shape at each vertex. Blocks are processed one after another, because shapes are numbered
-  /// in the order in which they are found.
+  /// Returns, for each vertex, the label of the shape that it lies on. Processes blocks one after another: shapes are
+  /// numbered in the order in which they are found, so this order must be fixed.
   Result<std::pmr::vector<uint32_t>> labels(SurfaceShapes& shapes) const {
     std::pmr::vector<uint32_t> labels(positions_.size(), memory_), of_block(memory_);
     std::pmr::vector<Int3> points(memory_);
@@ -108,7 +108,8 @@ class PlacedMesh {
   std::pmr::memory_resource* memory_;
   std::pmr::vector<TexturePoint> positions_, normals_;
   std::pmr::vector<Placed> placed_;   ///< the vertices, sorted by block (chunk)
-  std::pmr::vector<size_t> borders_;  ///< index in placed_ of each block's first vertex, and the end of the last block
+  std::pmr::vector<size_t> borders_;  ///< for each block, the index in placed_ of its first vertex; the last element is
+                                      ///< the end of the last block
 };
 
 }  // namespace

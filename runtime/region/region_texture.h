@@ -19,10 +19,11 @@ struct TexturedRegion {
   TexelDensity density;
 };
 
-/// A function that returns the chunk whose level applies at a place (in units). It is not called concurrently.
+/// Returns the chunk that contains a place (in units), in the level in which the region is meshed there. Not called
+/// concurrently.
 using ChunkAt = std::function<ChunkKey(Int3 place)>;
 
-/// Returns a function that returns the chunk of one level that contains a place, for worlds that have only this level.
+/// Returns a ChunkAt function for a mesh of a single level: it returns the chunk of this level that contains the place.
 ChunkAt chunksOfLevel(const WorldField& world, int level);
 
 /// Computes texture coordinates for the whole region in one coordinate system, so that a vertex between two chunks has

@@ -12,8 +12,9 @@ namespace {
 
 constexpr size_t kChunksTogether = 4096;  ///< number of chunks whose meshes are in memory at the same time
 
-/// Returns the mask of those faces of a chunk that lie in the upper border of the region. The flux through the lower
-/// border is 0, since position vectors are relative to the region's lowest corner.
+/// Returns the faces of a chunk that lie in the upper borders of the region, as a mask. Faces in the lower borders are
+/// not needed: position vectors start at the region's lowest corner, so the flux of positions through the lower borders
+/// is 0.
 uint8_t upperFaces(const ChunkKey& key, const ChunkKey& last) {
   uint8_t faces = 0;
   for (int axis = 0; axis < 3; ++axis)
@@ -33,8 +34,8 @@ Result<bool> isSolidAt(const WorldField& world, Int3 at, int level) {
   return std::floor(value * (*program)->q_scale + 0.5f) < 0;
 }
 
-/// Measures the solid area in the upper faces of a region, from the open edges of the surface in these faces (Green's
-/// theorem).
+/// Measures how much of the upper faces of a region is solid. Computes the area by Green's theorem from the open edges
+/// of the surface in these faces.
 class UpperFaces {
  public:
   UpperFaces(const IntBox& region, const WorldMesh& mesh) : mesh_(mesh) {
@@ -44,8 +45,8 @@ class UpperFaces {
     }
   }
 
-  /// Returns the solid area, in m2, of the upper face perpendicular to an axis. corner_is_solid: whether the region's
-  /// highest corner is solid.
+  /// Returns the area, in m2, of the solid part of the upper face perpendicular to an axis. corner_is_solid: true if
+  /// the region is solid at its highest corner, where the three upper faces meet.
   double solidArea(int axis, bool corner_is_solid) const {
     const size_t k = index(axis), u = index((axis + 1) % 3), v = index((axis + 2) % 3);
     double area = 0;
@@ -53,7 +54,8 @@ class UpperFaces {
       const uint32_t from = mesh_.indices[i], to = mesh_.indices[i % 3 == 2 ? i - 2 : i + 1];
       const std::array<double, 3> a = place(from), b = place(to);
       if (a[k] != size_[k] || b[k] != size_[k]) continue;
-      // The boundary of the face's solid part runs along the open edges of the surface in the opposite direction.
+      // The line integral of Green's theorem along the boundary of the solid part. The surface's open edges run along
+      // this boundary in the opposite direction, so their integral is subtracted.
       area -= (a[u] + b[u]) / 2 * (b[v] - a[v]);
     }
     return area + size_[u] * solidLength(k, u, v, corner_is_solid);
@@ -71,8 +73,8 @@ class UpperFaces {
     return {p[0] - low_[0], p[1] - low_[1], p[2] - low_[2]};
   }
 
-  /// Returns the length of solid, in metres, on the edge along v that the upper faces perpendicular to k and u share.
-  /// is_solid: whether the edge's high end is solid.
+  /// Returns the total length, in metres, of the solid parts of one edge of the region. The edge runs along v, between
+  /// the upper faces perpendicular to k and to u. is_solid: true if the region is solid at the high end of this edge.
   double solidLength(size_t k, size_t u, size_t v, bool is_solid) const {
     std::vector<double> crossings;
     for (uint32_t i = 0; i < mesh_.positions.size(); ++i) {
@@ -112,8 +114,10 @@ Result<double> borderFlux(const WorldField& world, Backend& backend, JobSystem& 
   for (const ChunkKey& key : keys) {
     const uint8_t faces = upperFaces(key, keys.back());
     if (faces == 0) continue;
-    // An outermost chunk's seam leads to a virtual neighbour that is as solid or void as the domain. So the seam covers
-    // the part of the chunk's face where the region's border cuts the solid (in a solid domain: the void).
+    // Request a seam between each outermost chunk and a virtual neighbour beyond the region. The neighbour is entirely
+    // solid or entirely void, like the domain. If the domain is void, the seam covers the part of the chunk's face
+    // where the region's border cuts the solid. If the domain is solid, the seam covers the part where the border cuts
+    // the void.
     ChunkRequest& request = requests.emplace_back(ChunkRequest{key, faces});
     request.outermost = true;
     request.sharp = sharp;
@@ -145,8 +149,8 @@ Result<double> borderFlux(const WorldField& world, const IntBox& region, int lev
   double flux = 0;
   for (int axis = 0; axis < 3; ++axis) {
     double area = faces.solidArea(axis, *corner_is_solid);
-    // In a solid domain, the surface encloses the void, so the area of the whole face is subtracted from the solid
-    // area.
+    // In a solid domain, the surface encloses the void. So this face contributes minus the area of its void, that is,
+    // the area of its solid minus the area of the whole face.
     if (world.isSolidDomain()) area -= faces.size((axis + 1) % 3) * faces.size((axis + 2) % 3);
     flux += faces.size(axis) * area / 3;
   }
@@ -155,8 +159,8 @@ Result<double> borderFlux(const WorldField& world, const IntBox& region, int lev
 
 double solidVolume(const WorldField& world, const IntBox& region, double flux) {
   if (!world.isSolidDomain()) return flux;
-  // In a solid domain, the flux is minus the volume of the void. So the solid is the volume of the whole region plus
-  // the flux.
+  // In a solid domain, the computed flux is minus the volume of the void. So the volume of the solid is the volume of
+  // the whole region plus this flux.
   double volume = 1;
   for (int axis = 0; axis < 3; ++axis)
     volume *= static_cast<double>(int64_t{region.hi[axis]} - region.lo[axis]) / kUnitsPerMetre;

@@ -16,12 +16,13 @@ std::array<double, 3> originFrom(Int3 place, const ChunkGrid& grid);
 Result<double> borderFlux(const WorldField& world, Backend& backend, JobSystem& jobs, std::span<const ChunkKey> keys,
                           bool sharp);
 
-/// Same as above, but computed without meshing again, from the region's welded mesh, whose open edges bound these
-/// faces. mesh: has one vertex per key. level: level of the mesh. Errors: those of compiling a field.
+/// Same as the borderFlux() above, but does not mesh the chunks again: computes the flux from the open edges of the
+/// region's welded mesh, which bound the missing faces. mesh: has one vertex per key. level: level of the mesh. Errors:
+/// those of compiling a field.
 Result<double> borderFlux(const WorldField& world, const IntBox& region, int level, const WorldMesh& mesh);
 
-/// Returns the volume of the solid in m3, in a solid or a void domain. flux: a third of the flux of the position
-/// vector, relative to any origin, through the surface and the faces that close it.
+/// Returns the volume in m3 of the solid in the region. The domain may be solid or void. flux: a third of the flux of
+/// the position vector, relative to any origin, through the solid's surface and the faces that close it.
 double solidVolume(const WorldField& world, const IntBox& region, double flux);
 
 }  // namespace sgm

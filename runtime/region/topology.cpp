@@ -15,7 +15,8 @@ uint32_t bordersOf(const VertexKey& key, const IntBox& extent) {
   uint32_t planes = 0;
   for (int axis = 0; axis < 3; ++axis) {
     if (key.axis == axis) continue;  // the vertex lies strictly between two samples on this axis
-    // A feature vertex lies in one face of a cell, or in none.
+    // A face vertex (a feature vertex in a cell's face) can lie in an outer plane only if the plane has the face's
+    // normal axis. A cell vertex lies inside its cell, so in no plane.
     if (key.axis >= kFaceVertex && key.axis != kFaceVertex + axis) continue;
     if (key.corner[axis] == extent.lo[axis]) planes |= 1u << 2 * axis;
     if (key.corner[axis] == extent.hi[axis]) planes |= 2u << 2 * axis;
@@ -23,7 +24,7 @@ uint32_t bordersOf(const VertexKey& key, const IntBox& extent) {
   return planes;
 }
 
-/// Returns the number of edges that belong to only one triangle and lie in one of the outer planes.
+/// Returns the number of edges that belong to only one triangle and lie in one of the region's outer planes.
 size_t openBorderEdges(const WorldMesh& mesh, const IntBox& extent) {
   std::vector<uint8_t> planes(mesh.keys.size());
   for (size_t v = 0; v < planes.size(); ++v) planes[v] = static_cast<uint8_t>(bordersOf(mesh.keys[v], extent));

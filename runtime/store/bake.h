@@ -26,9 +26,9 @@ struct Bakery {
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
 
-/// Returns a hash that identifies all baked content of a world: its identity, and how it is meshed and encoded. If the
-/// store has this world under the key that version 0.2 of the library used, returns that key. Error: invalid_argument
-/// if the world has no identity.
+/// Returns a hash that identifies all baked content of a world. It covers the world's identity, and how the world is
+/// meshed and encoded. If the store already contains this world under the key that version 0.2 of the library used,
+/// returns that key instead. Error: invalid_argument if the world has no identity.
 Result<ContentId> worldKey(const Folder& store, const WorldField& world, bool sharp);
 /// Returns a hash that identifies the world and the region together.
 ContentId jobKey(const ContentId& world, const BakedRegion& region);
@@ -40,10 +40,10 @@ Result<Bakery> bakeryOf(const WorldField& world, Backend& backend, JobSystem& jo
 /// Returns the record of a tile that was already baked; nullopt if the tile was not baked, or its record is damaged.
 std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile);
 
-/// Bakes a tile: meshes its chunks with all seams that may ever be drawn, measures them, and writes first the file of
-/// their meshes (the pack), then the tile's record, whose existence marks the tile as done. Chunks of level 0 also get
-/// anchors and void components, since a streamed world requests them. The result is a pure function of world, region
-/// and tile. Errors: those of meshing; io. Throws std::bad_alloc.
+/// Bakes a tile: meshes its chunks with all seams that may ever be drawn, and measures them. First writes the file of
+/// their meshes (the pack), and then the tile's record, whose existence marks the tile as done. Chunks of level 0 also
+/// get anchors and void components, since a streamed world requests them. The result is a pure function of world,
+/// region and tile. Errors: those of meshing; io. Throws std::bad_alloc.
 Result<TileRecord> bakeTile(const Bakery& bakery, const TileKey& tile, const Progress& progress = {});
 
 /// Meshes a chunk again, and returns the hashes of its encoded parts, to compare them with the baked ones. Errors:

@@ -24,7 +24,7 @@ std::pair<std::shared_ptr<BlockCache::Block>, bool> BlockCache::find(const Key& 
     throw;
   }
   if (blocks_.size() > kMaxBlocks) {
-    // Threads that still wait for the evicted block get its data, because they share ownership of it.
+    // The block leaves the cache, but other threads that wait for it still get its data: they share ownership of it.
     blocks_.erase(used_.back());
     used_.pop_back();
   }
@@ -96,7 +96,8 @@ Result<std::pmr::vector<std::byte>> BlockCache::read(uint64_t file, uint64_t fil
   if (bytes == 0) return content;
   Wanted wanted{file, offset / kBlock, {}, {}};
   const auto giveUp = [&] {
-    // Without this, other threads would wait forever for the blocks that this thread has claimed but not fetched.
+    // Marks the blocks that this thread has claimed but not fetched as failed. Otherwise other threads would wait for
+    // them forever.
     for (size_t i = 0; i < wanted.is_mine.size(); ++i) {
       if (wanted.is_mine[i]) fail(wanted, i, outOfMemory());
     }

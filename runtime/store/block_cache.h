@@ -1,5 +1,5 @@
 #pragma once
-// Caches blocks of files that are on a server, in memory.
+// Keeps blocks of files in memory: a cache for files that are on a server.
 
 #include <condition_variable>
 #include <cstddef>
@@ -17,8 +17,8 @@
 
 namespace sgm::store {
 
-/// An LRU cache of blocks. If a thread needs a block that another thread is fetching, it waits for that fetch.
-/// Thread-safe.
+/// An LRU cache of blocks. A thread that needs a block which another thread is already fetching waits for the end of
+/// that fetch. Thread-safe.
 class BlockCache {
  public:
   static constexpr size_t kBlock = size_t{1} << 17;  ///< size of a block in bytes; the last block of a file may be

@@ -31,8 +31,8 @@ bool isIn(const VertexKey& key, int face) {
 /// Returns a number that identifies a vertex among all vertices of one border. a, b: the vertex's coordinates along the
 /// border.
 uint64_t placeOf(const VertexKey& key, int32_t a, int32_t b) {
-  // A lateral vertex lies between the samples of two levels. Its number `fan`, which tells it from others at the same
-  // place, depends on chunks elsewhere in the frame, so it is ignored.
+  // A lateral vertex joins the samples of two levels. Its number `fan` distinguishes it from other lateral vertices at
+  // the same place, but depends on chunks elsewhere in the frame. So this function ignores it.
   const uint32_t fan = key.axis == kLateral ? 0 : key.fan;
   return uint64_t{static_cast<uint32_t>(a)} << 40 | uint64_t{static_cast<uint32_t>(b) & 0xFFFFFF} << 16 |
          uint64_t{key.axis} << 8 | fan;
@@ -60,7 +60,8 @@ void addBodyEdge(const VertexKey& p, const VertexKey& q, BorderSums& sums) {
     const auto [axis, u, v] = axesOf(face);
     const auto f = static_cast<size_t>(face);
     sums.own[f] += sumOf(placeOf(p, p.corner[u], p.corner[v]), placeOf(q, q.corner[u], q.corner[v]));
-    // The edge lies in one grid square of the face; the minimum of its end points is that square's lowest corner.
+    // Finds the quarter of the face that contains the edge. An edge lies in one grid square; the componentwise minimum
+    // of its ends is the lowest corner of that square.
     const int half_u = std::min(p.corner[u], q.corner[u]) < kChunkCells / 2 ? 0 : 1;
     const int half_v = std::min(p.corner[v], q.corner[v]) < kChunkCells / 2 ? 0 : 1;
     const auto finer = [=, u = u, v = v](const VertexKey& key) {
@@ -177,10 +178,10 @@ void Closure::addPair(const Border& border, EdgeSum sum) {
   open_.erase(at);
 }
 
-/// Adds the hash of one of a seam's four ends (borders along the edges of its chunk's face). All seams that end at the
-/// same chunk edge have the same vertices there, because these depend only on the samples along the edge, at both
-/// levels. So the hashes must be equal, except for their sign, which depends on the direction in which each seam runs
-/// around its border.
+/// Adds the hash of one of a seam's four ends (its borders along the edges of the chunk's face). The vertices of an end
+/// depend only on the samples along the chunk edge, at both levels. So all seams that end at this edge have the same
+/// vertices there, and their hashes must be equal. Only the sign may differ: it depends on the direction in which a
+/// seam runs around its border.
 void Closure::addEnd(const ChunkKey& chunk, int face, int side, EdgeSum sum) {
   if (sum == 0) return;
   const auto [axis, u, v] = axesOf(face);

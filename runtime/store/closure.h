@@ -23,8 +23,9 @@ namespace sgm::store {
 /// reversed edge. The hashes of two borders that fit add up to 0.
 using EdgeSum = uint64_t;
 
-/// The hashes of the borders of one part (body or seam) of a chunk's mesh. They use coordinates relative to the part's
-/// own chunk, or to the finer chunk at the border, so that they depend only on the part's bytes.
+/// The hashes of the borders of one part (body or seam) of a chunk's mesh. Coordinates are relative to the part's own
+/// chunk, or to the finer chunk at the border, so the hashes depend only on the part's bytes, and not on the chunk's
+/// position.
 struct BorderSums {
   std::array<EdgeSum, 6> own{};  ///< for a body: the border at each face; for a seam: only the border to its own
                                  ///< chunk's body
@@ -54,7 +55,7 @@ class Closure {
   void add(const ChunkKey& chunk, const std::array<const BorderSums*, 7>& parts);
   /// Reports the borders that have no counterpart. Call it after all chunks of the region have been added.
   void finish();
-  /// Returns the number of non-empty borders that were compared with their counterpart.
+  /// Returns the number of borders that were compared with their counterpart; empty borders do not count.
   uint64_t borders() const { return borders_; }
 
  private:
@@ -72,10 +73,11 @@ class Closure {
     size_t operator()(const Border& border) const;
   };
   struct Sides {
-    EdgeSum sum = 0;  ///< bodies, levels: sum of the hashes of the two sides so far; ends: the hash that all ends must
-                      ///< have
+    /// kinds `bodies` and `levels`: sum of the hashes added so far, which is 0 if the two sides fit; kind `ends`: the
+    /// hash that all ends must have
+    EdgeSum sum = 0;
     int count = 0;
-    bool differ = false;  ///< ends only: true if two ends have different hashes
+    bool differ = false;  ///< only for borders of kind `ends`: true if two ends have different hashes
   };
 
   void addBodies(const ChunkKey& chunk, const BorderSums& body);

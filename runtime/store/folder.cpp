@@ -91,8 +91,8 @@ Result<void> Folder::make() const {
   const fs::path format = root_ / kFormatFile;
   std::error_code error;
   if (!fs::exists(format, error)) {
-    // A folder without other files is accepted, because another process may be about to write the format file, or was
-    // killed before.
+    // The format file is missing. A folder without other files is accepted: another process may be about to write the
+    // format file, or may have been killed before it could.
     for (fs::directory_iterator entry(root_, error), end; !error && entry != end; entry.increment(error)) {
       const std::string name = entry->path().filename().string();
       if (name != kFormatFile && name.rfind("format.sgm-part", 0) != 0)
@@ -118,7 +118,7 @@ Result<StoreLock> StoreLock::take(const Folder& store, std::chrono::milliseconds
   const int file = platform::openFile(path, platform::kRead | platform::kWrite);
   if (file < 0) return ioError(path, errno);
   StoreLock lock(file);
-  // Waits for a limited time, because the process that holds the lock may hang, perhaps on another machine.
+  // Does not wait for ever: the process that holds the lock may hang, perhaps on another machine.
   while (platform::lockFile(file) != 0) {
     if ((errno == EWOULDBLOCK || errno == EACCES) && std::chrono::steady_clock::now() < until) {
       std::this_thread::sleep_for(kBetweenLooks);

@@ -31,7 +31,7 @@ std::unique_ptr<StoreFiles> folderFiles(const std::filesystem::path& root);
 /// StoreFiles::open.
 Result<void> checkFormat(StoreFiles& files);
 
-/// Suffix of the name of a baking job's folder after its tiles were merged, just before the folder is removed.
+/// A baking job's folder gets this suffix after its tiles were merged; then the folder is removed.
 inline constexpr const char* kMergedEnding = ".merged";
 
 class Folder {

@@ -55,7 +55,7 @@ Unpacker::~Unpacker() {
 
 std::optional<std::pmr::vector<std::byte>> Unpacker::unpack(std::span<const std::byte> frame, size_t content_bytes,
                                                             std::pmr::memory_resource* memory) {
-  // The size in the header is checked before memory of this size is allocated.
+  // Checks the size in the frame's header before memory for the content is allocated.
   if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != content_bytes) return std::nullopt;
   std::pmr::vector<std::byte> content(content_bytes, memory);
   ZSTD_DCtx* context = nullptr;

@@ -18,9 +18,9 @@ namespace {
 constexpr long kConnectMilliseconds = 3000, kMilliseconds = 10000;
 constexpr long kLeastBytesPerSecond = 1000, kSlowSeconds = 4;
 
-/// Blocks the signal SIGPIPE for the current thread, and discards it. Writing to a connection that the server has
-/// closed raises this signal, which by default ends the program. libcurl must not handle it, because a signal handler
-/// would affect the whole process.
+/// While an object exists, blocks the signal SIGPIPE for the current thread; afterwards discards a pending one. Writing
+/// to a connection that the server has closed raises SIGPIPE, which by default ends the program. libcurl must not
+/// handle it, because a signal handler would affect the whole process.
 class NoPipeSignal {
  public:
   NoPipeSignal() {
@@ -85,7 +85,8 @@ bool beginsAs(std::string_view line, std::string_view lower_case) {
 size_t takeHeader(const char* data, size_t size, size_t count, void* to) {
   Transfer& transfer = *static_cast<Transfer*>(to);
   std::string_view line(data, size * count);
-  // A status line starts a new response, for example after a redirection.
+  // A status line begins another response, for example after a redirection. What was read of the previous response's
+  // header does not apply to it.
   if (beginsAs(line, "http/")) transfer.file_bytes = transfer.range_first = std::nullopt;
   constexpr std::string_view kName = "content-range:";
   if (!beginsAs(line, kName)) return size * count;
@@ -232,7 +233,7 @@ Result<std::optional<HttpPart>> HttpClient::get(const std::string& address, uint
   if (transfer.out_of_memory || code == CURLE_OUT_OF_MEMORY) throw std::bad_alloc();
   if (code == CURLE_OK || (code == CURLE_WRITE_ERROR && transfer.too_long)) return partOf(transfer);
   std::string why = words[0] != 0 ? words.data() : curl_.easy_strerror(code);
-  // OpenSSL reports "wrong version number" if the server does not use TLS.
+  // With OpenSSL, "wrong version number" means that the server does not use TLS.
   if (why.find("wrong version number") != std::string::npos) why += "; is it http:// instead of https://?";
   return Error{Code::busy, std::move(why)};
 }

@@ -23,7 +23,8 @@ constexpr std::chrono::seconds kLongestWait{2};
 /// For this time, a file that could not be read is not requested again.
 constexpr std::chrono::seconds kFailedFor{60};
 
-/// The state of one server, shared by its files. A file may outlive the StoreFiles object that opened it.
+/// The state of one server, shared by all files that are open there. A file may outlive the StoreFiles object that
+/// opened it.
 class Server {
  public:
   Server(std::unique_ptr<HttpClient> client, std::string address, std::string shown, Log log,
@@ -54,8 +55,8 @@ class Server {
       return Error{Code::io, "'" + nameOf(file) + "' has " + std::to_string((*part)->file_bytes) +
                                  " bytes instead of " + std::to_string(file_bytes)};
     };
-    // This is checked before the block cache is used, because threads must not wait for blocks of an unavailable
-    // server.
+    // Check this before using the block cache: there, this thread might wait for a block that another thread fetches
+    // from an unavailable server.
     if (!isThere()) return away();
     auto read = blocks_.read(*number, file_bytes, offset, bytes, fetch, memory);
     if (!read && read.error().code == Code::io) {
@@ -85,7 +86,8 @@ class Server {
     return at->second.number;
   }
 
-  /// True if the server is available. If it was unavailable, sends a test request from time to time.
+  /// True if the server is available. While the server counts as away, some calls send it a test request
+  /// (Outage::look()), and others return false at once.
   bool isThere() {
     const Outage::Look look = outage_.look(Clock::now());
     if (look != Outage::Look::find_out) return look == Outage::Look::there;

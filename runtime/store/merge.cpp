@@ -11,7 +11,7 @@ namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
 
-/// The location of an encoded chunk part in the packs of the store.
+/// The place of an encoded chunk part in the packs of the store.
 struct Place {
   uint32_t pack;  ///< index into packs_
   uint32_t stored;
@@ -47,7 +47,8 @@ class Merger {
     return {};
   }
 
-  /// Stores the contents of a tile that the store lacks, and updates the location of each content in the tile's record.
+  /// Stores those contents of a tile that the store does not have yet. Then sets the locations of all contents in the
+  /// tile's record.
   Result<void> settle(TileRecord& record) {
     std::vector<size_t> fresh;
     size_t own = 0;
@@ -80,7 +81,7 @@ class Merger {
     return {};
   }
 
-  /// Blocks until the folder entries of the new packs are on disk.
+  /// Blocks until the names of the new packs are on disk (fsync of their folders).
   Result<void> sync() const {
     for (const fs::path& folder : folders_) {
       if (Result<void> synced = syncFolder(folder); !synced) return synced;
@@ -110,7 +111,8 @@ class Merger {
     return *trusted;
   }
 
-  /// Creates the folder for a pack. Returns true if the store already contains the pack.
+  /// True if the store already contains the pack. Otherwise counts the pack's bytes as new. Creates the folder of the
+  /// pack if it is missing.
   Result<bool> isThere(const PackFile& pack) {
     const fs::path folder = store_.pack(pack.name).parent_path();
     if (folders_.insert(folder).second) {
@@ -121,7 +123,8 @@ class Merger {
     return false;
   }
 
-  /// Adds the tile's pack to the store unchanged, because all of its contents are new. Links the file, or copies it.
+  /// Adds the tile's pack to the store unchanged: all of its contents are new. Makes a hard link to the pack's file, or
+  /// else copies the file.
   Result<PackFile> adopt(const TileKey& tile, const PackFile& pack) {
     const fs::path from = packFile(bakery_.folder, tile), to = store_.pack(pack.name);
     const Result<bool> there = isThere(pack);
@@ -130,8 +133,8 @@ class Merger {
     std::error_code error;
     fs::create_hard_link(from, to, error);
     if (!error) return pack;
-    // Linking fails if a damaged file has the pack's name, or if the file system has no hard links. Then the pack is
-    // copied.
+    // There is no link: the file system has no hard links, or a damaged file already has the pack's name. So the pack
+    // is copied.
     const auto bytes = readFile(from, pack.bytes);
     if (!bytes) return bytes.error();
     if (Result<void> written = writeFile(to, std::as_bytes(std::span(*bytes)), bakery_.unfinished); !written)
@@ -172,7 +175,8 @@ class Merger {
   uint64_t new_bytes_ = 0;
 };
 
-/// Returns the number of tiles that are not baked yet. A tile whose pack is damaged counts too; its record is removed.
+/// Returns the number of tiles that still have to be baked. These include tiles whose pack is damaged; the records of
+/// such tiles are removed.
 uint64_t missingOf(const Bakery& bakery, const std::vector<TileKey>& tiles) {
   uint64_t missing = 0;
   for (const TileKey& tile : tiles) {
@@ -185,8 +189,8 @@ uint64_t missingOf(const Bakery& bakery, const std::vector<TileKey>& tiles) {
   return missing;
 }
 
-/// Removes the folder of a baking job. Renames the folder first, so that a worker which still runs finds no folder
-/// instead of an incomplete one.
+/// Removes the folder of a baking job. Renames it first: if a worker of the job still runs, it finds no folder, instead
+/// of an incomplete one.
 void removeJob(const Bakery& bakery) {
   fs::path aside = bakery.folder;
   aside += kMergedEnding;

@@ -15,14 +15,14 @@ constexpr size_t kMaxOpen = 32;
 
 }  // namespace
 
-/// Reports an error of a file through tell_, and returns the error.
+/// Passes an error message about a file to tell_, and returns the message as an error (Code::io).
 Error OpenStore::told(const std::string& file, std::string message) {
   tell_(file, message);
   return {Code::io, std::move(message)};
 }
 
-/// True if the files are a store of this version. A folder was checked when it was opened; a server is checked at first
-/// use.
+/// True if the files are a store of this version. For a folder, this was checked when it was opened; for a server, the
+/// first call checks it.
 Result<bool> OpenStore::isStore() {
   {
     const std::lock_guard lock(mutex_);

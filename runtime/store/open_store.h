@@ -43,8 +43,8 @@ class OpenStore {
                                         std::pmr::memory_resource* memory);
   /// True if find() has searched the world, and the store has no index of the world.
   bool lacks(const ContentId& world);
-  /// The caller reports that a part which find() returned is invalid. The error is passed to `tell`, and find() does
-  /// not return the part again.
+  /// Call this if a part that find() returned proves invalid. Passes a message to `tell`; from now on find() does not
+  /// return this part again.
   void reject(const ContentId& world, const ChunkKey& chunk, int part);
 
  private:

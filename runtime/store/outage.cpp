@@ -15,7 +15,8 @@ Outage::Look Outage::look(Clock::time_point now) {
 
 bool Outage::failed(Clock::time_point begun, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
-  // A failed request that began before the last failure belongs to the same outage, so it does not lengthen the delay.
+  // The request began before the last failure became known, so it failed in the same outage, and does not lengthen the
+  // delay.
   if (is_away_ && begun <= failed_at_) return false;
   const bool is_new = !is_away_;
   const bool goes_on = rest_.count() != 0 && (!is_new || now - answered_at_ < kLongestRest);
@@ -32,7 +33,7 @@ bool Outage::failed(Clock::time_point begun, Clock::time_point now) {
 
 bool Outage::answered(Clock::time_point begun, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
-  // An answer to a request that began before the last failure does not show that the server works again.
+  // The request began before the last failure became known, so its answer does not show that the server works again.
   if (!is_away_ || begun <= failed_at_) return false;
   is_away_ = is_asked_ = false;
   answered_at_ = now;

@@ -6,9 +6,10 @@
 
 namespace sgm::store {
 
-/// The availability of one server. After a failure the server counts as away, and is tried again after one second, then
-/// two, doubling up to a minute. If it fails again soon after it has answered, the delay continues from its previous
-/// value. Thread-safe. Parameters: `begun` is the time when a request began, `now` the time when its outcome was known.
+/// The availability of one server. After a failure the server counts as away. It is tried again after one second, then
+/// after two; the delay doubles up to a minute. If the server fails again soon after it has answered, the delay
+/// continues from its previous value. Thread-safe. Parameters: `begun` is the time when a request began, `now` the time
+/// when its outcome was known.
 class Outage {
  public:
   using Clock = std::chrono::steady_clock;
@@ -22,10 +23,11 @@ class Outage {
   /// Reports a failed request. Returns true if the failure should be logged: once per outage, and at most once a
   /// minute.
   bool failed(Clock::time_point begun, Clock::time_point now);
-  /// Reports that the server answered. Returns true if this end of an outage should be logged, because its start was
-  /// logged.
+  /// Reports that the server answered. Returns true if the end of an outage should be logged: the answer ends an
+  /// outage, and the outage's start was logged.
   bool answered(Clock::time_point begun, Clock::time_point now);
-  /// Reports that a caller to whom look() returned find_out did not send its test request.
+  /// Call this after look() has returned find_out if no test request is sent after all: the next caller of look() may
+  /// then send it.
   void gaveUp();
 
  private:

@@ -17,9 +17,9 @@ constexpr uint32_t kPlanMagic = 0x4C4D4753;  // "SGML"
 constexpr uint32_t kPlanVersion = 1;
 constexpr uint64_t kMaxPlan = uint64_t{1} << 28;
 
-// Costs in microseconds of one thread, measured with samples/grammars (tests/bench/README.md). kUniform: a chunk that
-// is proven empty or solid; kSampled: any other chunk, with its seams; kInstruction: each instruction of such a chunk's
-// pruned field program.
+// Costs, in microseconds of one thread, measured with samples/grammars (tests/bench/README.md). A chunk that is proven
+// empty or solid costs kUniform. Any other chunk, with its seams, costs kSampled plus kInstruction for each instruction
+// of its pruned field program.
 constexpr double kUniform = 28, kSampled = 740, kInstruction = 6;
 
 std::vector<std::byte> encodePlan(const ContentId& job, std::span<const uint64_t> costs) {
@@ -52,7 +52,7 @@ IntBox boxOf(const BakedRegion& region, const ChunkKey& first, int chunks) {
   IntBox box;
   for (int axis = 0; axis < 3; ++axis) {
     const int64_t lo = first.at[axis] * edge;
-    // The box is clamped to the world's coordinate range. A block of chunks may extend beyond it, but no chunks exist
+    // Clamps the box to the world's coordinate range: a block of chunks may extend beyond it, although no chunks exist
     // there.
     constexpr int64_t kLow = std::numeric_limits<int32_t>::min(), kHigh = std::numeric_limits<int32_t>::max();
     box.lo[axis] = static_cast<int32_t>(std::clamp(lo, kLow, kHigh));
@@ -61,7 +61,8 @@ IntBox boxOf(const BakedRegion& region, const ChunkKey& first, int chunks) {
   return box;
 }
 
-/// Estimates the cost of a tile from the length of the field's program, pruned to cubes of at most 4 x 4 x 4 chunks.
+/// Estimates the cost of a tile: prunes the field's program to cubes of at most 4 x 4 x 4 chunks, and counts the
+/// instructions that are left.
 class Estimate {
  public:
   Estimate(const Bakery& bakery, const TileKey& tile)
@@ -84,8 +85,8 @@ class Estimate {
   }
 
  private:
-  /// Returns the number of chunks of the tile and region in a cube. first: the cube's lowest chunk; edge: its edge in
-  /// chunks.
+  /// Counts the chunks of a cube that belong to the tile and to the region. first: the cube's lowest chunk; edge: its
+  /// edge in chunks.
   size_t count(const ChunkKey& first, int edge) const {
     size_t chunks = 0;
     for (int i = 0; i < edge * edge * edge; ++i)
@@ -151,9 +152,9 @@ Result<std::vector<uint64_t>> planOf(const Bakery& bakery, std::span<const TileK
 }
 
 std::pair<size_t, size_t> tilesOfShard(std::span<const uint64_t> costs, size_t shard, size_t shards) {
-  // The sum of all costs is divided into equal parts, one per shard. A tile's cost is an interval of this sum, and the
-  // tile belongs to the shard whose part contains the middle of that interval. 1 is added to each cost, so that no
-  // interval is empty.
+  // Lays the tiles' costs end to end on a line, and divides the line into equal parts, one per shard. A tile belongs to
+  // the shard whose part contains the middle of the tile's interval. 1 is added to each cost, so that no interval is
+  // empty.
   const double all = static_cast<double>(std::accumulate(costs.begin(), costs.end(), uint64_t{0}) + costs.size());
   const auto firstOf = [&](size_t number) {
     if (number == shards) return costs.size();

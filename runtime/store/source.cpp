@@ -18,8 +18,8 @@ class StoreSource final : public BakedParts {
   Result<void> open(const std::string& place) {
     Result<std::unique_ptr<StoreFiles>> files = storeFiles(place, log_, memory_);
     if (!files && files.error().code == Code::unsupported) {
-      // A store that this build cannot read is not an error, just like an unavailable server: the world looks the same
-      // without it.
+      // This build or machine cannot read the store. As with an unavailable server, this is not an error: without the
+      // store the world looks the same.
       if (log_) log_("'" + shownPlace(place) + "': " + files.error().message + "; chunks are derived instead");
       return {};
     }
@@ -30,8 +30,8 @@ class StoreSource final : public BakedParts {
     const auto tell = [this](const std::string& file, const std::string& message) { this->tell(file, message); };
     const bool is_far = (*files)->isFar();
     auto store = std::make_unique<OpenStore>(std::move(*files), tell, memory_);
-    // Local stores are searched before servers. The order does not matter otherwise, because all stores have the same
-    // bytes for a part.
+    // Puts local stores before servers, because stores are searched in the order of the list. Apart from speed, the
+    // order has no effect: all stores have the same bytes for a part.
     const auto first_far =
         std::find_if(stores_.begin(), stores_.end(), [](const auto& other) { return other->files().isFar(); });
     stores_.insert(is_far ? stores_.end() : first_far, std::move(store));
@@ -63,7 +63,8 @@ class StoreSource final : public BakedParts {
   }
 
   void reject(const BakedWorld& world, const ChunkKey& chunk, int part, Reach reach) override {
-    // The part is rejected in all stores, because it is the same in each.
+    // All stores have the same bytes for a part. So the rejected part must not be returned again by any store that
+    // get() may have searched.
     for (const auto& store : stores_) {
       if (reach == Reach::far || !store->files().isFar()) store->reject(keyIn(*store, world), chunk, part);
     }
@@ -87,9 +88,9 @@ class StoreSource final : public BakedParts {
   }
 
  private:
-  /// Returns the key under which to look for a world in a store: the former key if the store has no index under the
-  /// current key and a former key exists, otherwise the current key. Precondition: find() has searched the store for
-  /// the world.
+  /// Returns the key under which a store may contain a world: the former key (that of an earlier library version) if
+  /// there is one and the store has no index under the current key; otherwise the current key. Precondition: find() has
+  /// searched the store for the world.
   static DiskKey keyIn(OpenStore& store, const BakedWorld& world) {
     return world.former_key && store.lacks(world.key) ? world.former_key() : world.key;
   }
@@ -100,8 +101,8 @@ class StoreSource final : public BakedParts {
     const DiskKey key = keyIn(store, world);
     return key == world.key ? std::move(found) : store.find(key, chunk, part, memory);
   }
-  /// Logs that no store has data of the world. Only the first such world is logged, because animated parameters create
-  /// many.
+  /// Logs a message if no store has data of this world. Does so only for the first such world, because animated
+  /// parameters create many worlds.
   void tellIfLacking(const BakedWorld& world) {
     if (has_told_lack_ || !log_ || stores_.empty()) return;
     const auto lacks = [&](const auto& store) { return store->lacks(keyIn(*store, world)); };

@@ -20,8 +20,8 @@ std::string shownPlace(const std::string& place) {
   const std::string authority = place.substr(host, path - host);
   size_t at = authority.rfind('@');
   if (at == std::string::npos) {
-    // A password in the URL may contain a '/', although it should be written as %2F. Then the text after the ':' is not
-    // a port.
+    // A password in a URL should have '/' written as %2F, but may contain the character itself. Then `authority` ends
+    // within the password, and the text after its last ':' is not a port number.
     const size_t colon = authority.rfind(':');
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     if (colon == std::string::npos || authority.back() == ']' ||

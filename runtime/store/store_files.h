@@ -36,7 +36,7 @@ class StoreFiles {
   /// accessed when the file is read. Errors: io; busy if the file is temporarily unavailable, so that a later call may
   /// succeed (this was already logged). Throws std::bad_alloc.
   virtual Result<std::shared_ptr<const StoredFile>> open(const std::string& file, std::optional<uint64_t> bytes) = 0;
-  /// True if reading is slow because the files are on a server, so that their content should be cached.
+  /// True if the files are on a server: then reading is slow, and the caller should cache their content.
   virtual bool isFar() const = 0;
   /// Ends all waits for the server: running and later calls return busy.
   virtual void stop() noexcept {}

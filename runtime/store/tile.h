@@ -21,7 +21,7 @@ inline constexpr size_t kTileChunks = size_t{kTileEdge} * kTileEdge * kTileEdge;
 struct TileKey {
   int level = 0;
   Int3 at;
-  /// Sorts by level, then z, y, x.
+  /// Sorts tiles by level, then by z, y and x.
   friend constexpr std::strong_ordering operator<=>(const TileKey& a, const TileKey& b) {
     if (a.level != b.level) return a.level <=> b.level;
     if (a.at.z != b.at.z) return a.at.z <=> b.at.z;
@@ -43,9 +43,9 @@ inline ChunkKey chunkOf(const TileKey& tile, size_t number) {
   return {tile.level, {8 * tile.at.x + n % 8, 8 * tile.at.y + n / 8 % 8, 8 * tile.at.z + n / 64}};
 }
 
-/// Returns the faces at which a chunk may border a coarser chunk, as bits (1 << Face). These are the three faces on the
-/// border of its parent chunk; behind the other faces are siblings of the same level. Only seams at these faces can
-/// ever be drawn, so only they are baked.
+/// Returns the faces at which a chunk may border a coarser chunk, as bits (1 << Face). These are the three faces that
+/// lie in the border of the chunk's parent. Behind the other three faces lie siblings, which have the same level. No
+/// other seams can ever be drawn, so only the seams at these faces are baked.
 inline uint8_t seamsOf(const ChunkKey& chunk) {
   uint8_t faces = 0;
   for (int axis = 0; axis < 3; ++axis) faces = static_cast<uint8_t>(faces | 1 << (2 * axis + (chunk.at[axis] & 1)));

@@ -8,9 +8,9 @@
 
 namespace sgm::store {
 
-/// A value of StoredContent::pack: the content is stored inline, in the record itself. This is done with content
-/// without triangles, and other content of at most kMaxInlined bytes. Most chunks share a few such contents, and a
-/// reader should not have to open a file for each.
+/// A value of StoredContent::pack: the content is inlined, that is, stored in the record itself. This applies to
+/// content without triangles, and to other content of at most kMaxInlined bytes. Most chunks share a few such contents;
+/// without inlining, a reader would have to open a file for each.
 inline constexpr uint32_t kInlined = 0xFFFFFFFF;
 inline constexpr size_t kMaxInlined = 256;  ///< maximum size of an inlined content, in bytes
 
@@ -48,9 +48,10 @@ struct TileRecord {
   /// for each chunk and part: index into `contents` plus one; 0 if the part was not baked
   std::pmr::vector<uint16_t> parts;
   measure::SurfaceSums measured;
-  uint32_t chunks = 0;          ///< number of baked chunks
-  uint64_t unshared_bytes = 0;  ///< total stored size of all parts in bytes, if each part had its own copy of its
-                                ///< content
+  uint32_t chunks = 0;  ///< number of baked chunks
+  /// sum over all parts of their content's stored size, in bytes; content that several parts share counts once for each
+  /// part
+  uint64_t unshared_bytes = 0;
 
   /// Returns the content of a part; null if the part was not baked. chunk: index of the chunk in the tile.
   const StoredContent* contentOf(size_t chunk, int part) const {

@@ -54,7 +54,7 @@ class Verifier {
 
  private:
   struct Looked {
-    std::optional<int> part;  ///< the part that the content contains (0: body, 1 + Face: seam); nullopt if the content
+    std::optional<int> part;  ///< part of a chunk that the content is (0: body, 1 + Face: seam); nullopt if the content
                               ///< is invalid
     BorderSums borders;
   };
@@ -88,8 +88,8 @@ class Verifier {
     }
   }
 
-  /// Opens a pack; null if it cannot be read or is damaged. The first time, compares the hash of its bytes with its
-  /// name.
+  /// Opens a pack; null if it cannot be read or is damaged. At the first call for a pack, checks that the hash of the
+  /// file's bytes is the pack's name.
   Pack open(const PackFile& pack) {
     const fs::path path = store_.pack(pack.name);
     const bool is_new = packs_.insert(pack.name).second;
@@ -113,8 +113,8 @@ class Verifier {
     return std::move(*file);
   }
 
-  /// Checks the content of a chunk part, and computes the hashes of its borders. Invalid content is treated as a mesh
-  /// without triangles, so that the adjacent borders do not fit.
+  /// Checks the content of a chunk part, and computes the hashes of its borders. Invalid content counts as a mesh
+  /// without triangles. So the borders of adjacent chunks have no counterpart there, and are reported, too.
   Looked lookAt(const TileRecord& record, const StoredContent& content, std::span<const Pack> packs) {
     known_.insert(content.id);
     const auto wrong = [&] {
@@ -164,8 +164,8 @@ Verified verify(const Folder& store, const WorldFile& world, const Progress& pro
 Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed) {
   Compared compared;
   const std::pmr::vector<TileEntry>& tiles = world.index.tiles;
-  // Tiles are selected at random. A tile without any surface is skipped, except in every 16th iteration, where one of
-  // its chunks is compared too.
+  // Draws tiles at random, and one chunk of each tile. Chunks with a surface are preferred: a tile that has no such
+  // chunk is skipped, except in every 16th draw.
   for (uint64_t draw = 0; compared.chunks < chunks && draw < 16 * chunks; ++draw) {
     const uint64_t random = hashCombine(seed, draw);
     const Result<TileRecord> record = world.record(tiles[random % tiles.size()], bakery.memory);

@@ -25,9 +25,9 @@ struct Verified {
   Problems problems;
 };
 
-/// Checks everything that a world needs, by reading it: records and packs are complete; the content of each chunk part
-/// exists, matches its hash and can be decoded; bodies and seams fit at every common border, so that the surface is
-/// closed whichever chunks are drawn together (closure.h). Throws std::bad_alloc.
+/// Checks everything that a world needs, by reading it. Records and packs must be complete; the content of each chunk
+/// part must exist, match its hash and be decodable; bodies and seams must fit at every common border, so that the
+/// surface is closed whichever chunks are drawn together (closure.h). Throws std::bad_alloc.
 Verified verify(const Folder& store, const WorldFile& world, const Progress& progress = {});
 
 struct Compared {
@@ -45,8 +45,8 @@ struct Cleaned {
   uint64_t unfinished = 0;        ///< number of baking jobs that are not merged yet; their files are kept
 };
 
-/// Removes packs that no world of the store needs, and leftovers of baking jobs that were merged. Errors: those of
-/// StoreLock::take; errors of reading an index, before anything is removed; io.
+/// Removes the packs that no world of the store needs, and the remaining files of baking jobs that were merged. Errors:
+/// those of StoreLock::take; errors of reading an index, before anything is removed; io.
 Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory,
                       std::chrono::milliseconds patience = StoreLock::kPatience);
 

@@ -29,10 +29,12 @@ struct WorldFile {
 /// Totals over all tiles of a world.
 struct WorldSummary {
   uint64_t tiles = 0, chunks = 0;
-  uint64_t contents = 0;  ///< number of distinct contents of chunk parts, including inlined ones
+  /// number of distinct contents of chunk parts, including those stored in a record itself (inlined)
+  uint64_t contents = 0;
   uint64_t packs = 0, pack_bytes = 0;
-  uint64_t unshared_bytes = 0;  ///< total stored size of all parts in bytes, if each part had its own copy of its
-                                ///< content
+  /// sum over all parts of their content's stored size, in bytes; content that several parts share counts once for each
+  /// part
+  uint64_t unshared_bytes = 0;
   measure::SurfaceSums measured;
 
   void add(const TileRecord& record);

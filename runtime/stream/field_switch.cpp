@@ -7,7 +7,7 @@ namespace sgm {
 
 namespace {
 
-/// Number of chunks that one job compares. If none of their cells is cached, this takes some milliseconds.
+/// Number of chunks that one job compares. If none of their cells is cached, the comparison takes some milliseconds.
 constexpr size_t kComparedAtOnce = 64;
 
 }  // namespace
@@ -75,8 +75,8 @@ bool FieldSwitch::compare(const std::shared_ptr<const DrawnFrame>& drawn, WorldE
   } catch (const std::bad_alloc&) {
     change_ = nullptr;
     const std::lock_guard lock(mutex_);
-    // Memory ran out, so the comparison restarts later with the same field, unless a newer field was requested. If the
-    // world was returning to an earlier field, it still does so before it uses any requested field.
+    // Memory ran out: the comparison restarts later, with the same field or with the newest field that was requested
+    // since. If the world was returning to an earlier field, it still does so before it uses any requested field.
     std::shared_ptr<const WorldField>& again = going_back_ ? back_ : next_;
     if (again == nullptr) again = to_;
     comparing_ = open_ = false;

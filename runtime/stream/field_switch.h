@@ -6,10 +6,10 @@
 //   then                the change is added to the world's edits, and the planner processes it like a brush
 //
 // The next switch begins when the field of the previous one is drawn. If chunks for a moving viewer still have to be
-// meshed at that time, it waits again as long as the previous switch took, so that an animation leaves half of the time
-// to these chunks. Before the first drawn frame, only one switch happens; otherwise a world that is animated from the
-// start would never appear. If a field cannot be drawn, the world returns to the previous field, so that edits and
-// queries match the drawn field. Without viewers nothing is drawn, and all switches wait.
+// meshed at that time, the next switch waits again as long as the previous switch took. So an animation leaves half of
+// the time to these chunks. Before the first drawn frame, only one switch happens; otherwise a world that is animated
+// from the start would never appear. If a field cannot be drawn, the world returns to the previous field, so that edits
+// and queries match the drawn field. Without viewers nothing is drawn, and all switches wait.
 
 #include <chrono>
 #include <memory>
@@ -29,7 +29,7 @@ class FieldSwitch {
   /// sharp: true if the world's chunks have sharp features.
   explicit FieldSwitch(bool sharp = false) : sharp_(sharp) {}
 
-  /// Requests a switch to a field. If several requests are waiting, only the last one is carried out.
+  /// Requests a switch to a field. If several requests are waiting, only the last request is carried out.
   void want(std::shared_ptr<const WorldField> next);
 
   /// True if no comparison is running. If there are viewers (`viewed`), also requires that no switch is waiting or
@@ -38,8 +38,8 @@ class FieldSwitch {
   /// True if begin() returned true, and the job that compares fields has not finished.
   bool busy() const;
 
-  /// Numbers of calls of want(), counted from 1: the last call, and the call whose field is drawn (0: the world's first
-  /// field).
+  /// The calls of want() are numbered from 1. wanted: number of the last call. drawn: number of the call whose field is
+  /// drawn; 0 for the world's first field.
   struct Turn {
     uint64_t wanted = 0, drawn = 0;
   };
@@ -76,14 +76,15 @@ class FieldSwitch {
 
   mutable std::mutex mutex_;  ///< guards the members below
   std::shared_ptr<const WorldField> next_;
-  /// if the last field failed: the field to which the world returns, before any requested field
+  /// The world returns to this field if the last field could not be drawn. The next requested switch waits until then.
+  /// Null if no return is necessary.
   std::shared_ptr<const WorldField> back_;
   std::shared_ptr<const WorldField> before_;  ///< the field before the unfinished change
   Turn turn_;
   uint64_t turn_begun_ = 0;  ///< number of the want() call that requested the unfinished change
   bool going_back_ = false;  ///< true if the comparison is with back_, so the world returns to an earlier field
   bool comparing_ = false;   ///< true if a comparing job is requested or running
-  bool open_ = false;        ///< true if a change of the field is in progress, or not drawn yet
+  bool open_ = false;        ///< true from the start of a change of the field until the changed field is drawn
   /// number of the state after the unfinished change; 0 while the comparison is in progress
   uint64_t state_ = 0;
   Clock::time_point begun_, not_before_;

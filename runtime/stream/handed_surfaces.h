@@ -8,7 +8,7 @@
 
 namespace sgm {
 
-/// By chunk, the surfaces that were delivered to the engine and not removed since. Not thread-safe.
+/// For each chunk, the surface that was delivered to the engine and not removed since. Not thread-safe.
 class HandedSurfaces {
  public:
   void add(const DrawnChunk& chunk) { surfaces_[chunk.key] = chunk.surface; }

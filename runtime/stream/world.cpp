@@ -156,9 +156,10 @@ void World::advance(size_t bytes, size_t colliders) {
     tellColliders(colliders);
   }
   if (stays != nullptr && staged_ != nullptr) restage(nullptr, *stays);
-  // If the engine can draw the step that it has begun to receive sooner than the new one, it keeps the begun step.
-  // Otherwise, if meshing is faster than delivering surfaces, steps would grow, and none would ever complete. A step
-  // with newer edits is never postponed, because edits must appear within two frames of changes.
+  // The new step usually replaces the step that the engine has begun to receive. Exception: the engine keeps the old
+  // step if no more bytes are left to deliver for the old step than for the new one. Without this exception, if meshing
+  // were faster than the delivery of surfaces, steps would grow and never complete. A new step with newer edits is
+  // never postponed, because edits must appear in one of the next two new frames.
   if (step != nullptr && staged_ != nullptr && step != staged_ && staged_->from == step->from &&
       staged_->to->edits == step->to->edits && handed_.bytesLeft(*staged_) <= handed_.bytesLeft(*step)) {
     step = staged_;
@@ -174,8 +175,8 @@ void World::advance(size_t bytes, size_t colliders) {
   } else {
     core_->scheduleOverdue();
   }
-  // Called even if this world needs no plan, because enough time may have elapsed for the turn of a waiting world
-  // (plan_turns.h).
+  // Called even if this world needs no plan: another world may wait for its turn to plan (plan_turns.h), and the turn
+  // may have come since the last call, merely because time has elapsed.
   core_->startDuePlans();
   core_->scheduleFieldSwitch();
 }
@@ -295,7 +296,7 @@ void World::cancel() {
   const std::lock_guard lock(core_->mutex);
   core_->queue.replace(dropped, true, std::chrono::steady_clock::now());
   ++core_->generation;
-  ++core_->viewers_set;  // makes the next update plan again
+  ++core_->viewers_set;  // so that the next update requests a new plan
 }
 
 Result<ContentHash> World::hashBodies(const IntBox& region, int level) const {

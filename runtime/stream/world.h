@@ -39,9 +39,9 @@ namespace sgm {
 struct WorldEvent {
   enum class Kind {
     ready,     ///< upload this surface, but do not draw it yet
-    shown,     ///< start to draw the chunk, with its last ready surface
-    replaced,  ///< draw the chunk's last ready surface instead of its previous one
-    seams,     ///< draw other seams of the same surface; or only `coarser` (below) has changed
+    shown,     ///< start to draw the chunk, with the surface of its last `ready` event
+    replaced,  ///< draw the surface of the chunk's last `ready` event instead of its previous surface
+    seams,  ///< draw the same surface with other seams; or the seams stay, and only `coarser` (see below) has changed
     /// stop drawing the chunk, and release its surface; also sent for a surface that was ready but never shown
     removed,
     failed,            ///< the chunk cannot be made: a coarser chunk stays in its place
@@ -62,13 +62,14 @@ struct WorldEvent {
 
 struct WorldStats {
   PlannerStats planner;
-  size_t queued = 0, in_work = 0;  ///< numbers of requests that wait, and that are in progress
+  size_t queued = 0, in_work = 0;  ///< number of requests that wait, and number of requests in progress
   size_t stale = 0;                ///< number of waiting or running requests that were planned for previous viewers
   uint64_t frame = 0;              ///< number of the drawn frame
   uint64_t plans = 0;
-  uint64_t edits = 0, edits_drawn = 0;  ///< numbers (WorldState::number) of the current and of the drawn state
-  FieldSwitch::Turn fields;             ///< numbers of the setField() calls: the last one, and the one whose field is
-                                        ///< drawn
+  /// numbers (WorldState::number) of the current edit state, and of the drawn one
+  uint64_t edits = 0, edits_drawn = 0;
+  FieldSwitch::Turn fields;  ///< numbers of the setField() calls: the last one, and the one whose field is
+                             ///< drawn
   DiskCacheStats cache;
   BakedStats baked;
   size_t surface_bytes = 0, peak_surface_bytes = 0;
@@ -85,9 +86,9 @@ inline constexpr size_t kMaxViewers = 256;
 class World {
  public:
   /// Creates a world, and reads the journal if the settings name one. backend, jobs and memory must outlive the world;
-  /// memory must also outlive the surfaces, which may outlive the world. turns: shared by all worlds on these jobs;
-  /// null: this is the only world. Errors: invalid_argument; limit (mesh_bytes is too small, or the distances are too
-  /// large: the message suggests values); those of WorldEdits::open.
+  /// memory must also outlive the surfaces, which may outlive the world. turns: the scheduler of plans, shared by all
+  /// worlds that use this job system; null: this is the only world. Errors: invalid_argument; limit (mesh_bytes is too
+  /// small, or the distances are too large: the message suggests values); those of WorldEdits::open.
   static Result<std::unique_ptr<World>> create(std::shared_ptr<const WorldField> field, Backend& backend,
                                                JobSystem& jobs, const WorldSettings& settings,
                                                std::pmr::memory_resource* memory,
@@ -103,9 +104,9 @@ class World {
   Result<void> setViewers(std::span<const Viewer> viewers);
 
   /// Collects finished work, and starts new work. Emits events for at most `bytes` bytes of new surfaces, and for at
-  /// most max_colliders (settings) colliders. A larger surface is delivered as the first one of an update; later
-  /// updates deliver less, so that any series of updates delivers at most the sum of their bytes plus one surface
-  /// (byte_credit.h). Never waits. If events of the previous update were not all polled, returns false and only
+  /// most max_colliders (settings) colliders. A surface larger than `bytes` is delivered as the first one of an update;
+  /// afterwards, updates deliver less. So any series of updates delivers at most the sum of their `bytes` plus one
+  /// surface (byte_credit.h). Never waits. If events of the previous update were not all polled, returns false and only
   /// schedules a write of the journal.
   bool update(size_t bytes);
 
@@ -117,15 +118,15 @@ class World {
   std::shared_ptr<const DrawnFrame> drawn() const;
 
   /// Updates without a byte limit until everything that the viewers need is drawn; the calling thread helps with the
-  /// work. Events accumulate in the meantime, so poll all events before. `more` is called from time to time; if it
-  /// returns false, the wait is cancelled. Errors: cancelled; limit (not enough memory).
+  /// work. Events accumulate in the meantime, so poll all pending events before the call. `more` is called from time to
+  /// time; if it returns false, the wait is cancelled. Errors: cancelled; limit (not enough memory).
   Result<void> waitIdle(const std::function<bool()>& more = {});
 
   /// Replaces the world's field by a field with other parameters, an edited grammar, or other host fields. The chunks
   /// that the difference affects (field_change.h) are meshed again and replaced in one frame; the others keep their
   /// meshes. Without viewers the switch waits. If a chunk cannot be made (WorldEvent::failed), the world returns to the
-  /// previous field. If fields arrive faster than they can be drawn, only the last one is used. Edits stay, with the
-  /// numbers of their materials and tags. Never waits. On error nothing changes. Errors: invalid_argument (another
+  /// previous field. If fields arrive faster than they can be drawn, only the last one is used. Edits stay, and keep
+  /// the numbers of their materials and tags. Never waits. On error nothing changes. Errors: invalid_argument (another
   /// finest cell size, or anything that create() rejects).
   Result<void> setField(std::shared_ptr<const WorldField> field);
 
@@ -134,7 +135,7 @@ class World {
   void cancel();
 
   /// Functions for edits: add a brush, undo an edit (as in EditLog), import the edits of another world. The result
-  /// appears at the latest in the second frame of changes afterwards. These functions never wait for a job or the disk.
+  /// appears in one of the next two new frames. These functions never wait for a job or the disk.
   Result<EditId> edit(const Brush& brush);
   Result<EditId> undo(EditId id);
   Result<void> importEdits(std::span<const std::byte> bytes);
@@ -152,8 +153,8 @@ class World {
   /// memory resource.
   QueryField queryField(int level = 0) const;
 
-  /// Returns the hash of the set of chunk bodies (hashParts) of a level that intersect the region lo <= p < hi. Meshes
-  /// chunks that are not drawn. Errors: those of chunksOfRegion and meshChunks.
+  /// Returns a hash (hashParts) of the bodies of all chunks of this level that intersect the region lo <= p < hi.
+  /// Meshes chunks that are not drawn. Errors: those of chunksOfRegion and meshChunks.
   Result<ContentHash> hashBodies(const IntBox& region, int level) const;
 
   WorldStats stats() const;
@@ -173,12 +174,13 @@ class World {
   /// Emits the pending changes of colliders as events, with at most `most` new colliders. Precondition: the caller
   /// holds the core's mutex.
   void tellColliders(size_t most);
-  /// Abandons the staged step, if any: emits removal of surfaces that were delivered for it and are not part of
-  /// `frame`. Then stages `step` instead.
+  /// Abandons the staged step, if there is one: emits a `removed` event for each surface that was delivered for the
+  /// step and is not part of `frame`. Then stages `step` instead.
   void restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame);
   /// Delivers surfaces of the step to the engine, as far as the byte credit allows. Returns true if all were delivered.
   bool handOver(const FrameStep& step);
-  /// Delivers surfaces of a step. When all were delivered, emits the changes of the step, and returns true.
+  /// Delivers surfaces of the step, as far as the byte credit allows. Once all are delivered, emits the step's changes
+  /// of the drawn chunks as events, and returns true.
   bool stage(const std::shared_ptr<const FrameStep>& step);
 
   std::unique_ptr<WorldCore> core_;

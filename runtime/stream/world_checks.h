@@ -1,5 +1,5 @@
 #pragma once
-// Checks whether the settings of a world allow to stream it.
+// Checks whether a world with given settings can be streamed.
 
 #include <cstddef>
 

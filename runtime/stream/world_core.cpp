@@ -10,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kFlushPriority = 3, kPlanPriority = 2, kComparePriority = 2;
-/// A planning job makes at most as many colliders as this number of updates can deliver.
+/// A job that plans makes at most as many colliders as this number of world updates can hand over to the engine.
 constexpr size_t kUpdatesOfColliders = 4;
 /// The interval between writes of the journal. It is so short that, including the time of the disk, a crash loses at
 /// most the edits of the last second.
@@ -70,7 +70,8 @@ void WorldCore::stop() noexcept {
     helpUntil(jobs, lock, gate_->ended, [this] { return gate_->running == 0; });
   }
   surfaces_->close();
-  flush_failed_ = false;  // this is the last write, so a failure is reported even if an earlier one was
+  flush_failed_ = false;  // the following write is the last one, so its failure is reported even if an earlier failure
+                          // was reported
   flushOnce();
 }
 
@@ -79,7 +80,7 @@ void WorldCore::warn(const char* message) const noexcept {
   try {
     settings.on_warning(message);
   } catch (const std::bad_alloc&) {
-    // A job must not throw, so the warning is lost if there is no memory for it.
+    // There was no memory for the warning. It is lost, because a job must not throw.
   }
 }
 
@@ -149,8 +150,8 @@ void WorldCore::flushOnce() {
     first = !flushed && !flush_failed_;
     flush_failed_ = !flushed;
   }
-  // Only the first of successive failures is reported. The write is repeated after the next edits, and when the world
-  // is destroyed.
+  // If several writes fail in succession, only the first failure is reported. The write is tried again after the next
+  // edits, and when the world is destroyed.
   if (!first) return;
   const Error& why = flushed.error();
   warn(why.code == Code::out_of_memory ? "out of memory while writing the edit journal" : why.message.c_str());
@@ -176,8 +177,7 @@ void WorldCore::compareOnce() {
     frame = drawn;
   }
   if (at_once)
-    return fields.giveUp();  // the job system runs jobs inside submit(), so the work is left to the next
-                             // update
+    return fields.giveUp();  // the job system runs jobs within submit(), so compare in the next update instead
   try {
     const ProfileScope scope(profiler, zone::kDerive);
     if (fields.compare(frame, edits, jobs)) return resubmit([this] { scheduleFieldSwitch(); });
@@ -239,15 +239,15 @@ bool WorldCore::planIsDue() const {
   const bool news = planning_with_.edits != edits.number() || planner_lost_ || planning_with_.viewers != viewers_set ||
                     planning_with_.applied != applied || !finished_.empty() ||
                     (!colliders_done_ && collider_changes.empty());
-  // No step is offered, or the offered step does not start from the drawn frame. This happens if memory is exhausted,
-  // or if one of two states of edits changed nothing.
+  // True if the world offers no step, or a step that does not start from the drawn frame. The latter happens if memory
+  // is exhausted, or if the last state of edits changed nothing visible while a newer state waits.
   const bool nothing_to_draw = step == nullptr || step->from != applied;
   const bool stuck = !atWork() && !isOverdue() && nothing_to_draw && (!idle_ || !colliders_done_);
   return stuck || news;
 }
 
 void WorldCore::resetPlanner() {
-  std::vector<WorkItem> dropped;  // declared before the lock, so that it is destroyed after the mutex is released
+  std::vector<WorkItem> dropped;  // declared before the lock, so that its destructor runs after the mutex is released
   const std::lock_guard lock(mutex);
   planner_lost_ = true;
   queue.replace(dropped, true, Clock::now());
@@ -261,8 +261,8 @@ bool WorldCore::makePlan() {
     const ProfileScope scope(profiler, zone::kPlan);
     if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner_.restart(frame);
     Plan plan = planner_.plan(planInput());
-    // The engine may have taken a step that was offered before the planner restarted; the planner does not know its
-    // frame, so it restarts again.
+    // Before the planner restarted, it may have offered a step, which the engine may have taken. The restarted planner
+    // does not know the frame after this step, so it must restart again.
     if (planner_.applied().number != planning_with_.applied) {
       resetPlanner();
       return false;
@@ -296,8 +296,7 @@ void WorldCore::planOnce() {
     }
     seconds += secondsSince(begun_at);
   }
-  turns_->endPlan(turn_, seconds);  // called before another plan may be requested, which requires that this one has
-                                    // ended
+  turns_->endPlan(turn_, seconds);  // must precede the world's next request for a plan
   bool again;
   {
     const std::lock_guard lock(mutex);
@@ -313,11 +312,12 @@ void WorldCore::makeColliders() {
   std::vector<Viewer> around;
   {
     const std::lock_guard lock(mutex);
-    if (!collider_changes.empty()) return;  // earlier changes are not delivered yet
+    if (!collider_changes.empty()) return;  // make no new colliders while earlier changes are not delivered yet
     frame = drawn;
     around = viewers;
   }
-  // The memory that is left limits the number of new colliders. Without viewers, colliders do not change.
+  // Limit the number of new colliders so that surfaces and colliders together stay within mesh_bytes. If there are no
+  // viewers, leave the colliders as they are.
   const size_t used = surfaces_->bytes() + colliders_.bytes();
   const size_t room = used < settings.mesh_bytes ? (settings.mesh_bytes - used) / largestChunk(settings) : 0;
   const size_t most = std::min(room, kUpdatesOfColliders * settings.max_colliders);
@@ -338,8 +338,8 @@ std::shared_ptr<const DrawnFrame> WorldCore::frameToRestartFrom() {
 }
 
 void WorldCore::publish(Plan&& plan) {
-  // The queue is long, and the engine may wait for the mutex: so most of the requests that have begun in the meantime
-  // are removed before the mutex is locked.
+  // Jobs have begun some requests of the new queue meanwhile, which must be removed from it. Most of them are removed
+  // while the mutex is not locked: the queue is long, and the engine may wait for the mutex.
   std::vector<ChunkKey> begun;
   {
     const std::lock_guard lock(mutex);
@@ -354,7 +354,8 @@ void WorldCore::publish(Plan&& plan) {
   const std::lock_guard lock(mutex);
   leaveOut(std::span(begun_).subspan(std::min(begun.size(), begun_.size())));
   failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
-  // swap() moves the previous queue into `plan`, so that it is destroyed after the mutex is released.
+  // swap() moves the previous queue into `plan`, so that the previous queue is destroyed only after the mutex is
+  // released.
   queue.replace(plan.queue, mayPrefetch(), Clock::now());
   std::swap(queue_edits_, plan.edits);
   step.swap(plan.step);

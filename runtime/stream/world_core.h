@@ -34,9 +34,9 @@
 
 namespace sgm {
 
-/// Returns the maximum size of a chunk's surface in bytes, if all cells have the largest number of triangles and there
-/// are six seams. Texture coordinates double it, as do sharp features in every second cell; a chunk with more features
-/// fails.
+/// Returns the maximum size of a chunk's surface in bytes: the size if every cell has the largest number of triangles
+/// and there are six seams. Texture coordinates double this size. So do sharp features, if every second cell has one; a
+/// chunk with more of them fails.
 inline size_t largestChunk(const WorldSettings& settings) {
   return size_t{5} << (20 + (settings.texture ? 1 : 0) + (settings.sharp ? 1 : 0));
 }
@@ -45,8 +45,8 @@ class WorldCore {
  public:
   static constexpr unsigned kPrefetchers = 4;
 
-  /// prefetchers: threads that may wait for a server; null: all stores are on this machine. turns: shared by all worlds
-  /// on these jobs.
+  /// prefetchers: threads that may wait for a server; null: all stores are on this machine. turns: the scheduler of
+  /// plans, shared by all worlds that use this job system.
   WorldCore(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs,
             std::shared_ptr<PlanTurns> turns, const WorldSettings& settings, std::unique_ptr<JobSystem> prefetchers,
             std::pmr::memory_resource* memory);
@@ -55,7 +55,7 @@ class WorldCore {
   WorldCore& operator=(const WorldCore&) = delete;
 
   /// Requests a plan, which begins when it is the world's turn (plan_turns.h). If a plan is already running, another
-  /// one follows.
+  /// plan follows it.
   void schedulePlanner();
   /// True if there is new input for a plan.
   bool planIsDue() const;
@@ -67,8 +67,8 @@ class WorldCore {
   void scheduleFieldSwitch();
   /// Submits meshing jobs for requests that have waited too long for their prefetch.
   void scheduleOverdue();
-  /// Closes the gate, and waits for running jobs; afterwards no job accesses the core. Then writes the journal. Call it
-  /// once, before destruction.
+  /// Closes the JobGate, so that no further job begins to use the core, and waits for running jobs; afterwards no job
+  /// accesses the core. Then writes the journal. Call it once, before destruction.
   void stop() noexcept;
 
   /// True if everything that the current viewers need is drawn, including edits. Precondition: the caller holds the
@@ -76,8 +76,8 @@ class WorldCore {
   bool settled() const;
   /// True if a plan or a chunk is in progress. Precondition: the caller holds the mutex.
   bool atWork() const { return planning_ || mesh_jobs > 0 || isLooking(); }
-  /// True if all planned requests are being prefetched or wait for a prefetch. Precondition: the caller holds the
-  /// mutex.
+  /// True if requests are planned, and all of them are being prefetched or wait for a prefetch. Precondition: the
+  /// caller holds the mutex.
   bool isLooking() const;
 
   const Profiler profiler;  ///< profiler of the world's first field
@@ -114,7 +114,7 @@ class WorldCore {
 
   struct Work {
     size_t queued = 0, in_work = 0;
-    size_t stale = 0;  ///< number of queued and running requests that were planned for previous viewers
+    size_t stale = 0;  ///< number of queued and running requests that were planned before the viewers were last set
   };
   /// Returns the current amount of work. Precondition: the caller holds the mutex.
   Work work() const;
@@ -133,7 +133,7 @@ class WorldCore {
     const size_t most = std::max(1u, jobs.concurrency() - 1);
     return backend.batch() > 1 ? std::min<size_t>(most, 3) : most;
   }
-  /// Returns the number of bytes below mesh_bytes that are neither used nor reserved by jobs.
+  /// Returns how many bytes of the limit mesh_bytes are neither used nor reserved by jobs.
   size_t room() const {
     const size_t used = surfaces_->bytes() + planner_stats.record_bytes + collider_bytes + reserved_;
     return settings.mesh_bytes - std::min(settings.mesh_bytes, used);
@@ -165,12 +165,13 @@ class WorldCore {
   /// Submits a job. Returns false if there is no memory for it.
   bool submit(JobSystem& to, void (*function)(void*), int priority) noexcept;
   bool submit(void (*function)(void*), int priority) noexcept { return submit(jobs, function, priority); }
-  /// Submits the planning job; called when it is the world's turn to plan. owner: the world's gate.
+  /// Submits the planning job; called when it is the world's turn to plan. owner: the world's JobGate.
   static void beginPlan(const std::shared_ptr<void>& owner) noexcept;
   /// Sets the number of mesh jobs. Precondition: the caller holds the mutex.
   void setMeshJobs(size_t count) { turns_->setMeshJobs(turn_, mesh_jobs = count); }
   void scheduleMeshing();
-  /// Starts prefetching threads, if fewer are running than there are requests to prefetch.
+  /// Submits prefetching jobs to prefetchers_, as long as there are more requests to prefetch than jobs that wait to
+  /// begin.
   void schedulePrefetch();
   PlanInput planInput();
   void publish(Plan&& plan);
@@ -181,7 +182,7 @@ class WorldCore {
   bool makePlan();
   void planOnce();
   void makeColliders();
-  /// The loop of a prefetching thread: prefetches requests as long as there are any.
+  /// A prefetching job: prefetches requests, one after another, as long as there are any.
   void prefetch();
   ChunkMesher mesherOf(const WorldState& under) const;
   void meshOnce();
@@ -189,8 +190,8 @@ class WorldCore {
   /// Ends a mesh job that does not submit another one.
   void endMeshJob();
   /// Calls `job`, which submits another job of the same kind. Some job systems run a submitted job immediately, inside
-  /// submit(); then isResubmitting() is true in that job and it does nothing, so that the nesting depth stays limited.
-  /// Does nothing if memory runs out.
+  /// submit(). In such a nested job isResubmitting() is true, and the job does nothing, so that the nesting depth stays
+  /// limited. If memory runs out, `job` is not called.
   template <class Submit>
   void resubmit(const Submit& job);
   /// True if this thread is inside resubmit(). Precondition: the caller holds the mutex.
@@ -209,7 +210,8 @@ class WorldCore {
   /// Passes a warning to the settings' callback. Thread-safe, takes no lock.
   void warn(const char* message) const noexcept;
 
-  /// The function that the job system calls for a job; does nothing if the gate is closed.
+  /// The function that the job system calls for a job. Does nothing if the JobGate is closed, that is, if the core is
+  /// destroyed or is being destroyed.
   template <void (WorldCore::*work)()>
   static void run(void* argument) noexcept;
 
@@ -232,11 +234,12 @@ class WorldCore {
   struct Seen {
     uint64_t viewers = 0, applied = 0, edits = 0;
   };
-  Seen planning_with_, planned_with_;  ///< input of the last plan that was begun, and of the published plan
+  Seen planning_with_, planned_with_;  ///< input of the last plan that was begun, and input of the last plan that was
+                                       ///< published
   WorldState queue_edits_;             ///< the world state from which the queue must be meshed
   std::vector<ChunkKey> begun_;
   std::vector<FinishedChunk> finished_;
-  /// number of unfinished requests that had already begun when the plan for the current viewers was published
+  /// number of unfinished requests whose meshing began before the plan for the current viewers was published
   size_t meshing_before_ = 0;
   size_t meshing_ = 0;       ///< number of requests that are being meshed
   size_t meshing_jobs_ = 0;  ///< number of jobs that are meshing

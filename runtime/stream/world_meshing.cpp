@@ -19,7 +19,7 @@ static_assert(kMeshPriority <= kSharePriority, "parts of chunks that were finish
 }  // namespace
 
 bool WorldCore::isLooking() const {
-  // Requires free memory, because otherwise the requests wait for memory, not for a prefetch.
+  // Requests without free memory (hasRoom()) wait for memory, not for a prefetch, so they do not count here.
   return prefetchers_ != nullptr && !queue.empty() && hasRoom() && !queue.nextReady(queue.size(), Clock::now());
 }
 
@@ -29,7 +29,8 @@ bool WorldCore::isOverdue() const {
 }
 
 void WorldCore::scheduleMeshing() {
-  // The number of iterations is limited, because some job systems run a job immediately, inside submit().
+  // The number of iterations is limited: some job systems run a job immediately, inside submit(), so without a limit,
+  // this one call could mesh the whole queue.
   for (size_t more = maxMeshJobs(); more > 0; --more) {
     {
       const std::lock_guard lock(mutex);
@@ -62,7 +63,9 @@ void WorldCore::schedulePrefetch() {
     }
     if (submit(*prefetchers_, run<&WorldCore::prefetch>, kLookPriority)) continue;
     const std::lock_guard lock(mutex);
-    --look_jobs_;  // no prefetching job could be submitted; jobs mesh the requests after kPatience
+    // No prefetching job could be submitted. The requests are then meshed without a prefetch, after they have waited
+    // for kPatience.
+    --look_jobs_;
     return;
   }
 }
@@ -144,7 +147,8 @@ void WorldCore::prefetch() {
     try {
       look = std::make_shared<Look>();
     } catch (const std::bad_alloc&) {
-      // Out of memory: this prefetching job ends, and jobs mesh the requests after kPatience.
+      // Out of memory: this prefetching job ends. The requests are then meshed without a prefetch, after they have
+      // waited for kPatience.
     }
     std::optional<ChunkRequest> request;
     WorldState under;
@@ -161,7 +165,7 @@ void WorldCore::prefetch() {
     try {
       found = mesherOf(under).find(*request, under.brushes.get());
     } catch (const std::bad_alloc&) {
-      // Out of memory: nothing was found, so the chunk will be meshed.
+      // Out of memory: the prefetch ends without a result, as if no store had the chunk, so the chunk will be meshed.
     }
     {
       const std::lock_guard lock(mutex);
@@ -217,8 +221,8 @@ void WorldCore::meshOnce() {
   uint64_t of_generation;
   {
     const std::lock_guard lock(mutex);
-    // Inside resubmit() the job takes nothing: otherwise the whole queue could be meshed in one call, by jobs nested in
-    // each other.
+    // Inside resubmit() the job takes no requests: otherwise jobs nested in each other could mesh the whole queue in
+    // one call.
     if (!isResubmitting()) takeItems(batch, items);
     under = queue_edits_;
     of_generation = generation;

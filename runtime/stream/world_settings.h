@@ -19,7 +19,8 @@ struct WorldSettings {
   LodSettings lod;
   /// limit in bytes for all surfaces, including those that the engine owns or that are being meshed
   size_t mesh_bytes = size_t{256} << 20;
-  bool by_reach = true;  ///< true: level 0 is drawn only where the void leads from a viewer (PlannerSettings::by_reach)
+  bool by_reach = true;  ///< true: level 0 is drawn only around chunks that can be reached from a viewer through the
+                         ///< void (PlannerSettings::by_reach)
   /// distance from a viewer, in units, within which chunks have a collider; 0: no colliders
   double collider_distance = 0;
   size_t max_colliders = 4;  ///< maximum number of new colliders per update, at least 1

@@ -27,7 +27,8 @@ struct TimeHistogram {
 };
 
 struct WorldTimes {
-  /// durations of calls of update and poll, including the time that one waits for the other
+  /// durations of calls of update() and of poll(), including the time that a call waits for a call of the other
+  /// function
   TimeHistogram update, poll;
   /// time to mesh a body, by level; the time of a batch is divided equally among its chunks
   std::array<TimeHistogram, kMaxLevel + 1> mesh;

@@ -11,8 +11,8 @@ MaterialBlend materialBlend(const MaterialMix& a, const MaterialMix& b, const Ma
     std::copy(corners[i]->begin(), corners[i]->end(), all.begin() + static_cast<std::ptrdiff_t>(i * kMaterialSamples));
   }
   std::sort(all.begin(), all.end());
-  // A material and the number of its occurrences at a triangle's corners. Among equal counts, the lower material
-  // numbers are chosen.
+  // A material and the number of its occurrences at a triangle's corners. If counts are equal, the lower material
+  // number is preferred.
   struct Counted {
     uint16_t material;
     size_t count;

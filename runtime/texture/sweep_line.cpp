@@ -41,8 +41,8 @@ SweepPlace SweepLine::at(Vec3 p) const {
   }
   const Vec3 off = p - nearest->from;
   double t = dot(off, nearest->tangent);
-  // The first segment extends beyond the line's start. Any other segment is clamped at its start, since the previous
-  // segment continues there.
+  // Only the first segment is extended backwards, beyond the start of the line. Any other segment is clamped at its own
+  // start, since the previous segment continues there.
   if (nearest != &segments_.front()) t = std::max(t, 0.0);
   if (nearest != &segments_.back()) t = std::min(t, nearest->length);
   SweepPlace place;

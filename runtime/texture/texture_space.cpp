@@ -12,7 +12,8 @@ namespace {
 
 /// flag in a chart's number: u is mirrored, because the surface bounds a cavity (the void is inside the shape)
 constexpr Chart kMirrored = 0x8000;
-// charts of sweeps (side, far end, near end) and of round shapes (side, top, bottom)
+// chart numbers: of a sweep: kSide its side, kTop its far end, kBottom its near end; of a round shape: side, top and
+// bottom
 constexpr int kSide = 0, kTop = 1, kBottom = 2;
 constexpr Chart kFirstSide = 2;  ///< number of a prism's first side chart; the charts of its two ends have lower
                                  ///< numbers
@@ -54,7 +55,8 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
     origin_ = pointAt(points[0]);
     const Shape& piece = s.child_count > 0 ? chunk.shapes[chunk.children[s.first_child]] : s;
     square_ = piece.kind == ShapeKind::box;
-    // The flat sides of a beam follow the axes of its pieces, so take `up` from its first piece, not from the scope.
+    // The orientation of the cross-section (`up`) comes from the first piece: the flat sides of a beam are parallel to
+    // the axes of each of its pieces.
     const std::array<float, 9>& rows = piece.frame.rows;
     const Vec3 up = square_ ? Vec3{double{rows[3]}, double{rows[4]}, double{rows[5]}} : Vec3{0, 1, 0};
     line_ = std::make_shared<const SweepLine>(points, up);
@@ -107,7 +109,8 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
       kind_ = Kind::prism;
       for (const Int3& corner : points) corners_.push_back({double(corner.x), double(corner.z)});
       break;
-    case ShapeKind::morph_power:  // such a shape gets no coordinates, because its radii vary from place to place
+    case ShapeKind::morph_power:  // a morphed shape has no texture coordinates of its own, because its radii vary from
+                                  // place to place
     case ShapeKind::voxels:
     case ShapeKind::unite:
     case ShapeKind::meet:
@@ -142,7 +145,7 @@ double TextureSpace::tilesAroundLine() const {
 double TextureSpace::turnOf(const SweepPlace& place) const {
   const double side = place.side, up = place.up;
   if (!square_ || (side == 0 && up == 0)) return detAtan2(side, up) / (2 * kPi);
-  // On each of a beam's four flat sides, the result changes linearly by a quarter turn.
+  // Across each of a beam's four flat sides, the angle grows linearly, by a quarter turn in total.
   if (std::fabs(up) < std::fabs(side)) return (side > 0 ? 0.25 : -0.25) - up / side / 8;
   if (up > 0) return side / up / 8;
   return side / up / 8 + (side > 0 ? 0.5 : -0.5);
@@ -186,8 +189,8 @@ Chart TextureSpace::chartOf(const TexturePoint& middle, const TexturePoint& norm
   if (kind_ == Kind::line) {
     const SweepPlace place = line_->at({middle[0] - origin_[0], middle[1] - origin_[1], middle[2] - origin_[2]});
     const double ahead = product(place.tangent, normal);
-    // A triangle belongs to an end if it faces along the line and lies near that end. Facing alone does not suffice: on
-    // a rough side, some triangles also face along the line.
+    // A triangle belongs to an end of the line if its normal points along the line and if it lies near that end. The
+    // normal alone is not enough: on a rough side, some triangles have such a normal, too.
     const bool far_end = place.along > line_->length() - size_[0] / 2, near_end = place.along < size_[0] / 2;
     if ((far_end || near_end) && 2 * ahead * ahead > product(normal, normal)) {
       const bool is_far = far_end && !(near_end && place.along < line_->length() / 2);
@@ -205,14 +208,15 @@ Chart TextureSpace::chartOf(const TexturePoint& middle, const TexturePoint& norm
       return side(faceOf(outward), product(outward, n));
     }
     case Kind::round: {
-      // The side of a truncated cone is inclined, so a point belongs to an end if it is nearer to the end's plane than
-      // to the side.
+      // The side of a truncated cone is inclined: `out` is the component of n along the normal of this inclined side. A
+      // triangle belongs to an end if its normal n has a larger component along the axis.
       const double lean = (size_[0] - size_[1]) / (2 * size_[2]);
       const TexturePoint radial = outwardAt(q);
       const double wide = std::sqrt(product(radial, radial)), whole = std::sqrt(product(n, n));
       const double out = wide > 0 ? (product(radial, n) / wide + lean * n[1]) / std::sqrt(1 + lean * lean) : 0;
       if (std::fabs(n[1]) > std::fabs(out) && std::fabs(n[1]) > 0.5 * whole) {
-        // The second argument is positive if the normal points out of the shape; otherwise the chart is mirrored.
+        // The second argument of side() is positive if the normal points out of the shape; otherwise side() returns a
+        // mirrored chart.
         const int end = q[1] > 0 ? kTop : kBottom;
         return side(end, end == kTop ? n[1] : -n[1]);
       }
@@ -243,9 +247,9 @@ Chart TextureSpace::prismChart(const TexturePoint& q, const TexturePoint& n) con
     if (x * x + z * z >= least) continue;
     least = x * x + z * z;
     nearest = i;
-    // If the corners are counter-clockwise seen from +y, the outward normal of an edge (dx, dz) is (-dz, dx). Otherwise
-    // this is the inward normal, but the edge also runs in the opposite direction along u, so the texture is not
-    // mirrored.
+    // If the corners are counter-clockwise seen from +y, (-dz, dx) is the outward normal of the edge (dx, dz). If they
+    // are clockwise, (-dz, dx) is the inward normal, but then the edge also runs in the opposite direction along u. So
+    // the texture is not mirrored in either case.
     outside = -dz * n[0] + dx * n[2] >= 0;
   }
   const size_t chart = kFirstSide + nearest;

@@ -24,9 +24,9 @@ struct TextureCoordinates {
   double u = 0, v = 0;
 };
 
-/// Computes texture coordinates for points of a shape's surface. Coordinates count square tiles. Around a closed
-/// direction the number of tiles is whole, so that a repeating texture joins; u x v points into the void, so that no
-/// texture is mirrored. The layout by kind of shape:
+/// Computes texture coordinates for points of a shape's surface. Coordinates count square tiles. Around a closed shape
+/// (for example, around a tube) the number of tiles is whole, so that a repeating texture joins. The cross product u x
+/// v points into the void, so that no texture is mirrored. The layout by kind of shape:
 ///
 ///   sphere, ellipsoid, superquadric   six charts as on a cube, selected by the largest local coordinate, with equal
 ///                                     angles per tile; an ellipsoid seven times as wide as high has 0.5 to 1.4 times
@@ -42,8 +42,9 @@ struct TextureCoordinates {
 /// Immutable. Positions are world positions in units (1/1024 m), exact in double precision.
 class TextureSpace {
  public:
-  /// Maps points along the world's axes. base: the point with coordinates 0, in units (1/1024 m). tile: edge length of
-  /// a tile in units, at least 1. If each base is a multiple of the tile, the tiles of all chunks lie on one lattice.
+  /// Maps points along the world's axes. base: the point with texture coordinates 0, in units (1/1024 m). tile: edge
+  /// length of a tile in units, at least 1. If the base of each chunk is a multiple of `tile`, the tiles of all chunks
+  /// lie on one lattice.
   TextureSpace(Int3 base, int32_t tile);
   /// Maps points by a leaf shape of the chunk, or by a union whose children are the pieces of a sweep. If the shape has
   /// no coordinates of its own, maps along the world's axes, and byWorld() is true.
@@ -82,8 +83,8 @@ class TextureSpace {
   /// radii of ring and tube
   std::array<double, 3> size_{};
   std::shared_ptr<const SweepLine> line_;
-  bool square_ = false;                         ///< for kind line: true if the cross-section is square (a beam)
-  std::vector<std::array<double, 2>> corners_;  ///< for kind prism: local x and z of the corners
+  bool square_ = false;                         ///< used if kind_ is line: true if the cross-section is square (a beam)
+  std::vector<std::array<double, 2>> corners_;  ///< used if kind_ is prism: local x and z of the corners
 };
 
 }  // namespace sgm

@@ -76,8 +76,8 @@ Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory) {
     for (size_t corner = 0; corner < 3; ++corner) {
       const uint32_t vertex = corners[corner];
       TextureCoordinates at = space.at(mesh.positions[vertex], chart);
-      // Shift periodic coordinates so that the triangle's corners are close to each other; shift the other coordinates
-      // of all corners together so that they are near 0.
+      // Shift each periodic coordinate of a corner so that the triangle's corners are close to each other. Shift
+      // non-periodic coordinates of all three corners by the same amount, so that they are near 0.
       const auto steps = [](double x, double to, double step) {
         return step > 0 ? stepsTo(x, to, step) : stepsTo(to, 0, kTilesKept);
       };

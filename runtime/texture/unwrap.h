@@ -17,20 +17,21 @@ struct UnwrapInput {
   std::span<const uint32_t> labels;         ///< for each vertex: label of the shape that makes the surface there
   std::span<const uint32_t> indices;        ///< three vertex indices per triangle, counter-clockwise seen from the void
   std::function<const TextureSpace&(uint32_t label)> space_of;
-  std::span<const TexturePoint> normals;   ///< one per vertex, of any length
+  std::span<const TexturePoint> normals;   ///< one normal per vertex, not necessarily of unit length
   std::span<const MaterialMix> materials;  ///< materials around each vertex
-  /// number of indices before those of the seams: flat strips, in the faces of the chunk's box, to coarser chunks
+  /// number of the body's indices, which come before the indices of the seams. A seam is a flat strip in a face of the
+  /// chunk's box; it joins the chunk to coarser chunks.
   size_t body_indices = SIZE_MAX;
 };
 
-/// Non-periodic coordinates are moved by a multiple of this many tiles to within half of it from 0, so that floats
-/// resolve 1/4,096 of a tile.
+/// Number of tiles. Non-periodic coordinates are shifted by a multiple of this number into the range from -kTilesKept /
+/// 2 to kTilesKept / 2, so that floats resolve 1/4,096 of a tile.
 inline constexpr double kTilesKept = 4096;
 
 /// Computes the wedges of a mesh. A triangle uses the texture space of the shape that makes two of its vertices or, if
-/// all three differ, of the shape of its first vertex. The triangle's normal selects the chart or, in a seam between
-/// chunks, the normals of its vertices. A triangle has at most two materials (material_blend.h). Pure. Throws
-/// std::bad_alloc.
+/// three different shapes make its vertices, the texture space of the first vertex's shape. The triangle's own normal
+/// selects the chart; in a seam between chunks, the normals of its vertices do. A triangle has at most two materials
+/// (material_blend.h). Pure. Throws std::bad_alloc.
 Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory);
 
 /// Computes wedges for materials only: a vertex has one wedge for each pair of materials of its triangles. u, v and

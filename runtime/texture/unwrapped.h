@@ -8,10 +8,11 @@
 
 namespace sgm {
 
-/// A copy of a vertex for one chart and one pair of materials.
+/// A vertex of the textured mesh: a copy of a vertex of the original mesh. A vertex has one copy for each combination
+/// of a texture chart and a pair of blended materials in which its triangles use it.
 struct Wedge {
-  uint32_t vertex = 0;                  ///< index of the mesh's vertex, which has the position, normal and label of the
-                                        ///< wedge
+  uint32_t vertex = 0;                  ///< index of the vertex of the mesh; the wedge has the position, normal and
+                                        ///< label of this vertex
   float u = 0, v = 0;                   ///< texture coordinates in tiles
   std::array<uint16_t, 2> materials{};  ///< material numbers of the wedge's triangles, ascending; equal if there is
                                         ///< only one
@@ -22,7 +23,7 @@ struct Wedge {
 };
 
 struct Unwrapped {
-  std::pmr::vector<Wedge> wedges;      ///< in the order of their first use by triangles
+  std::pmr::vector<Wedge> wedges;      ///< in the order in which triangles first use them
   std::pmr::vector<uint32_t> corners;  ///< indices of wedges, three per triangle, parallel to the mesh's indices
 
   explicit Unwrapped(std::pmr::memory_resource* memory = std::pmr::get_default_resource())

@@ -14,7 +14,7 @@ constexpr uint64_t kIdle = 1024;
 size_t bytesOf(const GrammarChunk& c) {
   // estimated bytes of the map entry, the reference count and the heap's overhead
   constexpr size_t kBookkeeping = 256;
-  constexpr size_t kIndexed = 64;  // estimated bytes per group in the index
+  constexpr size_t kIndexed = 64;  // estimated bytes in the index for each group of shapes
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   return kBookkeeping + sizeof(DerivedCell) + of(c.shapes) + of(c.children) + of(c.exprs) + of(c.noises) +
          of(c.points) + of(c.blocks) + of(c.voxels) + of(c.groups) + c.groups.size() * kIndexed + of(c.anchors);
@@ -62,8 +62,8 @@ Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, co
         hits_.fetch_add(1, std::memory_order_relaxed);
         return use(found->second);
       }
-      // There is no deadlock: a layer's derivation requests only cells of lower layers, so the thread that derives this
-      // cell never waits for a cell that this thread derives.
+      // Another thread is deriving this cell. Waiting for it cannot lead to a deadlock: a layer's derivation requests
+      // only cells of lower layers, so the other thread never waits for a cell that the waiting thread is deriving.
       derived_.wait(lock);
     }
     ++stats_.misses;
@@ -83,8 +83,8 @@ Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, co
     }
     auto cell = std::make_shared<const DerivedCell>(std::move(*chunk), memory_);
     std::lock_guard lock(mutex_);
-    // Room is made before the new cell is inserted; otherwise the new cell could be evicted, if all other cells get a
-    // second chance. The cell is inserted however large it is, since the caller holds it in memory anyway.
+    // Make room before the new cell is inserted. If all other cells got a second chance afterwards, the new cell itself
+    // could be evicted. The cell is inserted however large it is, since the caller holds it in memory anyway.
     makeRoom(cell->bytes);
     by_use_.push_front(key);
     Entry& entry = entries_[key];
@@ -145,7 +145,8 @@ void CellCache::makeRoom(size_t bytes) {
     const bool is_full = stats_.bytes + bytes > byte_limit_;
     if (!is_full && !isIdle(entry.listed_as)) return;
     if (entry.used != entry.listed_as && !isIdle(entry.used)) {
-      // Second chance: the entry was used since it was put at its place in the list, so it moves to the front.
+      // Second chance: the entry was used since it was put into the list or last moved to the front, so it moves to the
+      // front.
       entry.listed_as = entry.used;
       by_use_.splice(by_use_.begin(), by_use_, entry.listed);
       continue;

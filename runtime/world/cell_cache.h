@@ -31,8 +31,8 @@ struct DerivedCell {
 struct CellKey {
   uint32_t layer = 0;
   Int3 cell;
-  /// The cell was derived for levels with cells of this edge (units) or larger, without finer detail; 0: with all
-  /// detail.
+  /// Edge in units of the smallest grid cells for which this grammar cell was derived; detail that only smaller grid
+  /// cells would show is left out. 0: the cell has all detail.
   int32_t cell_edge = 0;
   friend auto operator<=>(const CellKey&, const CellKey&) = default;
 };
@@ -72,7 +72,7 @@ class CellCache {
     std::shared_ptr<const DerivedCell> cell;  ///< null while a thread is deriving the cell
     std::atomic<uint64_t> used{0};            ///< value of clock_ at the latest use of the entry
     std::list<CellKey>::iterator listed;
-    uint64_t listed_as = 0;  ///< value of `used` when the entry was put at its place in by_use_
+    uint64_t listed_as = 0;  ///< value of `used` when the entry was last put into by_use_ or moved to its front
   };
   /// Marks an entry as used, and returns its cell. Precondition: the caller holds the lock, shared or exclusive.
   std::shared_ptr<const DerivedCell> use(Entry& entry);
@@ -81,9 +81,9 @@ class CellCache {
 
   const size_t byte_limit_;
   std::pmr::memory_resource* memory_;
-  // Many threads find cells concurrently, so a hit only stores the time of use. When an entry reaches the end of the
-  // list, it is evicted only if it was not used since it was put at its place; otherwise it moves to the front (second
-  // chance algorithm).
+  // Many threads find cells concurrently under a shared lock, so a hit only stores the time of use and does not reorder
+  // by_use_. An entry at the end of by_use_ is evicted only if it was not used since it was put into the list or last
+  // moved to the front; otherwise it moves to the front (second chance algorithm).
   mutable std::shared_mutex mutex_;
   std::condition_variable_any derived_;
   std::map<CellKey, Entry> entries_;

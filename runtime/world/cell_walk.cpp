@@ -15,13 +15,14 @@ constexpr int64_t kMaxCellsOfChunk = int64_t{1} << 20, kMaxCellsWalked = int64_t
 IntBox movedBy(const IntBox& box, Int3 by) { return {saturatingAdd(box.lo, by), saturatingAdd(box.hi, by)}; }
 
 CellKey cellKey(const Program& program, int32_t finest_cell, uint32_t layer, Int3 at, int32_t cell_edge) {
-  // A cell that was derived for one level also serves the next coarser one. A cell for coarse levels is never made by
-  // reducing a cached cell for finer levels: the content of a chunk must not depend on the state of the cache.
+  // Each derivation of a cell serves kLevelsTogether consecutive levels. A cached derivation for finer levels is never
+  // reduced to serve coarser levels: the content of a chunk must not depend on the content of the cache.
   constexpr int kLevelsTogether = 2;
   int32_t kept = finest_cell;
   while (kept <= (cell_edge >> kLevelsTogether)) kept <<= kLevelsTogether;
-  // Even the finest level may not show everything in a cell: with cells of 50 cm, houses have no glazing bars. But
-  // derivation of the layers above reads these finer parts, too, and so requests the complete cell.
+  // kept = 0 stands for the complete cell. It is also used for the finest level, which may not show everything in the
+  // cell: with cells of 50 cm, for example, houses have no glazing bars. But derivation of the layers above reads these
+  // finer parts, too, and so requests the complete cell.
   const Layer& info = program.layers[layer];
   if (!info.by_level || cell_edge < finest_cell || (kept == finest_cell && isWhole(info))) kept = 0;
   return {layer, at, kept};
@@ -46,7 +47,7 @@ Result<void> walkCells(const Program& program, Int3 shift, uint32_t layer, const
       if (home.hi[axis] < span.lo || home.lo[axis] > span.hi) return {};
       continue;
     }
-    // Cells that would lie partly outside of the world are not derived.
+    // Exclude cells that would extend beyond the border of the world: such cells are not derived.
     const int64_t world_first = floorDiv(int64_t{INT32_MIN} + edge - 1, edge),
                   world_last = floorDiv(INT32_MAX, edge) - 1;
     first[a] = std::max(-floorDiv(span.hi - home.lo[axis], edge), world_first);

@@ -24,7 +24,7 @@ struct ChunkKeyHash {
   }
 };
 
-/// Returns the chunk one level coarser that contains this chunk.
+/// Returns the chunk of the next coarser level that contains this chunk.
 inline ChunkKey parentOf(const ChunkKey& key) { return {key.level + 1, {key.at.x >> 1, key.at.y >> 1, key.at.z >> 1}}; }
 
 /// Returns one of the eight chunks one level finer within this chunk: bits 0, 1, 2 of `index` select the upper half in

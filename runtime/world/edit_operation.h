@@ -29,11 +29,11 @@ struct EditOperation {
   enum class Kind : uint8_t {
     brush,  ///< adds a brush
     undo,   ///< hides the brush that `target` added
-    redo,   ///< shows the brush that `target` added again
+    redo,   ///< shows again the brush that `target` added
   };
   Kind kind = Kind::brush;
   EditOrder order;
-  EditId target;  ///< the operation that an undo or a redo refers to: the one that added the brush
+  EditId target;  ///< for an undo or a redo: the operation whose brush is hidden, or shown again
   Brush brush;    ///< the brush that a brush operation adds
 };
 

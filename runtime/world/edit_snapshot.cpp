@@ -10,8 +10,8 @@ namespace {
 // Octree levels of the root and of the leaves: the edge of a node is 2^level units.
 constexpr int kWorldLevel = 32, kLeafLevel = 12;
 
-// Returns the deepest octree level whose nodes are not shorter than the box. A brush is stored in the node of that
-// level that contains its middle, and extends at most half an edge beyond the node.
+// Returns the deepest octree level whose nodes are not shorter than the box. A brush is stored in the node of this
+// level that contains the middle of the brush. So the brush extends at most half of the node's edge beyond the node.
 int homeLevel(const IntBox& box) {
   int64_t longest = 0;
   for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, int64_t{box.hi[axis]} - box.lo[axis]);

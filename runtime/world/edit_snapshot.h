@@ -16,16 +16,16 @@ class EditSnapshot {
  public:
   explicit EditSnapshot(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : memory_(memory) {}
 
-  /// Appends the brushes whose bounds meet the box and that are visible at cells of this edge in units (brushShows), in
-  /// order.
+  /// Appends, in the order of EditOrder, the brushes whose bounds meet the box and that are large enough to show at
+  /// cells with the edge `cell`, in units (brushShows).
   void query(const IntBox& box, int32_t cell, std::pmr::vector<Brush>& brushes) const;
 
   size_t brushes() const;
   /// Returns the bounding box of everything that the brushes change.
   IntBox bounds() const;
 
-  /// with() returns a snapshot with one additional brush, without() one from which a brush is removed. Precondition:
-  /// the brush was checked, and is absent (with) or present (without).
+  /// with() returns a snapshot with one additional brush; without() returns a snapshot from which a brush is removed.
+  /// Precondition: the brush was checked, and is absent (with) or present (without).
   ///
   /// A series of changes is cheap if all of them use the same batch number, other than 0. The snapshots of a series may
   /// then share even changed nodes: only the last snapshot is valid, and earlier ones must not be used elsewhere. Use

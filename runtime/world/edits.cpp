@@ -138,8 +138,8 @@ Result<std::vector<IntBox>> EditLog::merge(std::span<const EditOperation> operat
     return Error{Code::limit, "the world would have " + std::to_string(known_.size() + fresh.size()) +
                                   " edits, but it holds at most " + std::to_string(settings_.max_operations)};
   }
-  // Undos and redos are inserted first, the latest before earlier ones, so that no brush appears or disappears more
-  // than once.
+  // Inserts undos and redos before brushes, and later undos and redos before earlier ones. So each brush appears or
+  // disappears at most once.
   std::vector<const EditOperation*> order;
   for (const auto& [id, operation] : fresh) order.push_back(operation);
   std::sort(order.begin(), order.end(), [](const EditOperation* a, const EditOperation* b) {

@@ -55,9 +55,10 @@ class EditLog {
   /// is a redo. Errors: invalid_argument (the operation or its brush is unknown); limit.
   Result<Edited> undo(EditId id);
 
-  /// Adds the operations that are not yet known: all of them or, after an error, none, unless memory runs out. Returns
-  /// the regions that change: a box for each brush that appears or disappears. Errors: bad_input (no edit log could
-  /// have created an operation, or it is known with other content); limit.
+  /// Adds the operations that are not yet known. If an error is returned, none is added; if memory runs out, some may
+  /// have been added. Returns the regions that change: a box for each brush that appears or disappears. Errors:
+  /// bad_input (no edit log creates an operation like one of these, or two operations with one id have different
+  /// content); limit.
   Result<std::vector<IntBox>> merge(std::span<const EditOperation> operations);
   /// Decodes the result of exportBytes(), and merges its operations. Errors: those of merge(); bad_input if the bytes
   /// are not such a result.
@@ -99,14 +100,14 @@ class EditLog {
   uint64_t batch_ = 0;   ///< number of the last batch of changes (EditSnapshot::with)
 };
 
-/// Returns the box to mesh again after the field has changed in the box `changed`, at a level whose cells have the edge
-/// `cell` (units): every chunk whose closed box meets the result must be meshed again. The result includes the
+/// Returns the box that must be meshed again after the field has changed in the box `changed`: every chunk whose closed
+/// box meets the result must be meshed again. cell: edge of the level's grid cells, in units. The result includes the
 /// positions at which seams of these chunks sample the next coarser level.
 IntBox editReach(const IntBox& changed, int32_t cell);
 
-/// Returns a subset of operations that shows the same brushes. It contains the visible brushes; the latest undo or redo
-/// of each brush, so that a hidden brush stays hidden if it arrives again; and the last operation of each author, so
-/// that numbering continues. A redo of a brush that was left out takes effect when the brush arrives again.
+/// Returns a subset of the operations that makes the same brushes visible. It contains the visible brushes; the latest
+/// undo or redo of each brush, so that a hidden brush stays hidden if it arrives again; and the last operation of each
+/// author, so that numbering continues. A redo of a brush that was left out takes effect when the brush arrives again.
 std::vector<EditOperation> essentialEdits(std::span<const EditOperation> operations);
 
 }  // namespace sgm

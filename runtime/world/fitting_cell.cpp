@@ -11,7 +11,8 @@ namespace sgm {
 
 uint64_t countChunks(const IntBox& region, int64_t cell) {
   const int64_t edge = kChunkCells * cell;
-  // The product of the three counts may overflow an integer, since each count can be almost 2^28.
+  // The number of chunks along each axis can be almost 2^28, so the product of the three numbers may overflow an
+  // integer.
   long double count = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const int64_t first = floorDiv(region.lo[axis], edge), last = floorDiv(int64_t{region.hi[axis]} - 1, edge);

@@ -42,7 +42,7 @@ std::optional<int32_t> LayersBelow::probe(uint32_t layer, Int3 start, std::array
   const Int3 end = probePoint(from, direction, length);
   IntBox box{{std::min(from.x, end.x), std::min(from.y, end.y), std::min(from.z, end.z)},
              {std::max(from.x, end.x), std::max(from.y, end.y), std::max(from.z, end.z)}};
-  box = box.grown(1);  // the margin covers the rounding of the points between the two ends
+  box = box.grown(1);  // the probe rounds the points between its two ends: the margin covers this rounding
   const FieldProgram* field = program(layer, box);
   if (!field) return std::nullopt;
   prune(field->view(), box, prune_scratch_, pruned_);

@@ -1,6 +1,6 @@
 #pragma once
-// Gives the derivation of a cell access to the layers below it, by field programs that are compiled once for the cell's
-// surroundings.
+// Lets the derivation of a cell query the field of the layers below the cell's layer. The queries use field programs
+// that are compiled once for the cell's surroundings.
 
 #include <exception>
 #include <map>
@@ -28,13 +28,13 @@ class LayersBelow final : public LowerLayers {
 
  private:
   const FieldProgram* program(uint32_t layer, const IntBox& box) const;
-  /// Adds the shift of the world's settings, since derivation works without that shift.
+  /// Adds the shift that the world's settings define, because derivation works in coordinates without that shift.
   Int3 shifted(Int3 p) const;
 
   const WorldField& world_;
   IntBox around_;
   mutable std::map<uint32_t, std::shared_ptr<const FieldProgram>> programs_;
-  /// the program for the last queried box that is not contained in `around_`
+  /// the program for the last queried box that lies outside of `around_`, at least in part
   mutable std::shared_ptr<const FieldProgram> elsewhere_;
   mutable EvalScratch scratch_;
   mutable PruneScratch prune_scratch_;

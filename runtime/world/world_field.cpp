@@ -80,8 +80,8 @@ std::vector<std::byte> WorldField::identityWith(uint64_t grammar) const {
 template <class T, class Derive>
 Result<T> WorldField::overLayersBelow(uint32_t layer, Int3 at, const Derive& derive) const {
   const ProfileScope scope(profiler(), zone::kDerive);
-  // Probes start in the cell and end within its reach, and all other queries stay within its reach, so this box
-  // contains all of them.
+  // The derivation of the cell queries lower layers at points within the cell's reach, and by probes (rays), which
+  // start in the cell and end within its reach. So this box contains all queries.
   const IntBox around = movedBy(cellLimit(*settings_.program, layer, at), settings_.shift);
   LayersBelow below(*this, around);
   Result<T> derived = derive(below);

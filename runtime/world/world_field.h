@@ -30,7 +30,8 @@ struct WorldFieldSettings {
   /// Called from any thread, also concurrently; must not call the field.
   std::function<void(const GrammarChunk&)> on_notes;
   Profiler profiler;
-  /// Fields above all derived content and below the edits, in this order. Derivation cannot query them.
+  /// Fields that the host program adds: in this order, they lie above all derived content and below the edits.
+  /// Derivation cannot query them.
   std::vector<HostField> hosts;
 };
 
@@ -71,53 +72,53 @@ class WorldField {
   /// they have read have equal values in both fields. Copies none if the program, seed or shift differ.
   void adopt(const WorldField& other) const;
 
-  /// True if both fields derive the same cell. parameters: mask of the parameters that the cell has read
-  /// (GrammarChunk::parameters).
+  /// True if this field and `other` derive the same content for a cell. parameters: mask of the parameters that the
+  /// cell has read (GrammarChunk::parameters).
   bool derivesAlike(const WorldField& other, uint64_t parameters) const;
 
   /// Returns a cell of a layer with all detail: from the cache, or derived now.
   Result<std::shared_ptr<const DerivedCell>> cell(uint32_t layer, Int3 cell) const;
 
-  /// Returns the cell's content for levels whose cells have this edge, in units. A cell that only coarse levels request
-  /// is cached without its finer content.
+  /// Returns the grammar cell's content for levels whose grid cells have the edge cell_edge, in units. A cell that only
+  /// coarse levels request is cached without its finer content.
   Result<std::shared_ptr<const DerivedCell>> cellFor(uint32_t layer, Int3 cell, int32_t cell_edge) const;
 
   /// Derives the cell without the cache, and records the origin of its shapes.
   Result<TracedCell> trace(uint32_t layer, Int3 cell) const;
 
-  /// Calls visit for each cell of a layer whose declared reach meets the box, in order z, y, x, until the first error.
-  /// Error: limit if there are more than 2^24 cells.
+  /// Calls visit for each cell of a layer whose declared reach (the maximum extent of its shapes) meets the box, in
+  /// order z, y, x, until the first error. Error: limit if there are more than 2^24 cells.
   Result<void> cellsAround(uint32_t layer, const IntBox& box,
                            const std::function<Result<void>(Int3 cell)>& visit) const;
 
-  /// Compiles all groups that matter in the closed box at a level; the host fields and the edits become layers above
-  /// them. cached_cells: cached cells of this field, which are searched first; all cells used are added. Errors: limit
-  /// if more than 2^20 cells of a layer reach into the box, or the box is too large to sample a host field; errors of
-  /// derivation and of the host fields.
+  /// Compiles all groups of shapes that matter in the closed box at a level; the host fields and the edits become
+  /// layers above these groups. cached_cells: cached cells of this field, which are searched first; all cells used are
+  /// added. Errors: limit if more than 2^20 cells of a layer reach into the box, or the box is too large to sample a
+  /// host field; errors of derivation and of the host fields.
   Result<std::shared_ptr<const FieldProgram>> compile(const IntBox& box, int level, const EditSnapshot* edits = nullptr,
                                                       CachedCells* cached_cells = nullptr) const;
 
   /// Same as compile(), but with labels that identify shapes instead of materials and tags.
   Result<ShapeField> compileShapes(const IntBox& box, int level, const EditSnapshot* edits = nullptr) const;
 
-  /// Returns the brushes of `edits` that compile() adds above all other content, in order.
+  /// Returns the brushes of `edits` that compile() adds above all other content, in the order of EditOrder.
   std::pmr::vector<Brush> brushes(const IntBox& box, int level, const EditSnapshot* edits) const;
 
   /// Returns a program for the field beyond the meshed world: solid or void everywhere, like the domain.
   Result<std::shared_ptr<const FieldProgram>> compileOutside(int level) const;
 
-  /// Returns the anchors in the box lo <= p < hi, by layer, cell and key. cached_cells: cached cells, which are
+  /// Returns the anchors in the box lo <= p < hi, sorted by layer, cell and key. cached_cells: cached cells, which are
   /// searched first. Errors: limit if the box holds points of more than 2^24 cells of a layer; errors of derivation.
   Result<std::vector<Anchor>> anchors(const IntBox& box, const CachedCells* cached_cells = nullptr) const;
 
-  /// Returns notes on content that derivation has left out. Considers cells whose reach meets the box, of layers that
-  /// are visible at levels with this cell edge or that may have anchors. The notes of each cell occur once. Errors:
-  /// limit if there are more than 2^24 cells of a layer; errors of derivation.
+  /// Returns notes on content that derivation has left out. Considers the cells whose reach meets the box, of all
+  /// layers that are visible at levels whose grid cells have the edge cell_edge, or that may have anchors. The notes of
+  /// each cell occur once. Errors: limit if there are more than 2^24 cells of a layer; errors of derivation.
   Result<std::vector<DeriveNote>> notes(const IntBox& box, int32_t cell_edge) const;
 
-  /// Returns the uses of a rule whose origins lie in the box lo <= p < hi, by layer and cell, in order of derivation.
-  /// Searches only cells whose reach meets the box. Errors: limit if there are more than `most` uses, or more than 2^24
-  /// cells of a layer; errors of derivation.
+  /// Returns the uses of a rule whose origins lie in the box lo <= p < hi, sorted by layer and cell; within a cell, in
+  /// the order of derivation. Searches only cells whose reach meets the box. Errors: limit if there are more than
+  /// `most` uses, or more than 2^24 cells of a layer; errors of derivation.
   Result<std::vector<RuleInstance>> instances(uint32_t rule, const IntBox& box, size_t most) const;
 
   CellCacheStats cacheStats() const { return cache_.stats(); }
@@ -138,16 +139,16 @@ class WorldField {
                                                             std::span<const HostField> hosts,
                                                             std::span<const Brush> brushes, CachedCells& cached_cells,
                                                             GatheredCells* gathered = nullptr) const;
-  /// Calls visit for the content of all cells whose region (CellsBy) intersects the box, of the layers that `wanted`
-  /// accepts, in order.
+  /// For each layer that `wanted` accepts, in order: calls visit for the content of each cell whose region (CellsBy)
+  /// intersects the box.
   Result<void> forEachCell(const IntBox& box, CellsBy by, const std::function<bool(const Layer&)>& wanted,
                            const std::function<void(const GrammarChunk&)>& visit,
                            const CachedCells* cached_cells = nullptr) const;
-  /// Adds the cells of the keys to cached_cells, unless it contains them already; takes them from the cache, or derives
-  /// them.
+  /// Makes cached_cells contain the cells of all keys: takes the missing cells from the cache, or derives them.
   Result<void> load(std::span<const CellKey> keys, CachedCells& cached_cells) const;
   FieldSettings fieldSettings(int32_t finest_cell, int32_t cell) const;
-  /// Calls `derive` with access to the layers below the cell, and returns its result or the error of that access.
+  /// Calls `derive` with access to the layers below the cell. Returns the result of `derive`; if access to the lower
+  /// layers has failed, returns that error instead.
   template <class T, class Derive>
   Result<T> overLayersBelow(uint32_t layer, Int3 cell, const Derive& derive) const;
 

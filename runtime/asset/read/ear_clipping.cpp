@@ -68,7 +68,8 @@ int EarClipping::side(uint32_t a, uint32_t b, uint32_t c) const {
 /// True if the triangle fan around corner 0 is a correct triangulation: its triangles turn around the corner at most
 /// once, and none of them is degenerate.
 bool EarClipping::fanHolds() const {
-  bool half = false;  // true once the fan has turned by half a turn from its first direction
+  bool half = false;  // true once the triangles of the fan have turned by at least half a turn from the fan's first
+                      // edge
   for (uint32_t i = 2; i < points_.size(); ++i) {
     if (side(0, i - 1, i) <= 0) return false;
     const int turned = side(0, 1, i);
@@ -148,7 +149,8 @@ bool EarClipping::isApart(const Box& box, const std::array<uint32_t, 3>& ear) co
   for (int k = 0; k < 3; ++k) {
     const Point &a = *p[k], &b = *p[(k + 1) % 3];
     const double across_u = -sign_ * (b[v_] - a[v_]), across_v = sign_ * (b[u_] - a[u_]);
-    // Take the corner of the box that lies farthest towards the inner side of this edge of the ear.
+    // Of the corners of the box, take the one farthest towards the inner side of this edge. If even that corner is
+    // outside of the edge, so is the whole box.
     const double u = (across_u > 0 ? box.high[0] : box.low[0]) - a[u_];
     const double v = (across_v > 0 ? box.high[1] : box.low[1]) - a[v_];
     const double inward = across_u * u + across_v * v;

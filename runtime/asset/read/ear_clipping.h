@@ -36,8 +36,8 @@ class EarClipping {
   struct Box {
     double low[2], high[2];
   };
-  /// Which triangles may be clipped as ears. strict: not degenerate, with no other corner inside or on the diagonal;
-  /// touching: other corners may lie on the diagonal; flat: degenerate triangles, too.
+  /// Selects the triangles that may be clipped as ears. strict: not degenerate, and no other corner lies inside or on
+  /// the diagonal; touching: other corners may lie on the diagonal; flat: degenerate triangles may be clipped, too.
   enum class Rule { strict, touching, flat };
   struct Waiting {
     uint32_t corner, next;

@@ -8,9 +8,10 @@ namespace {
 
 constexpr size_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125,
                  kFloat = 5126;
-constexpr size_t kNowhere = SIZE_MAX;  ///< replaces an invalid byteOffset: larger than every buffer, so it is rejected
-                                       ///< later
-/// The maximum number of elements of an accessor without a buffer view, whose size the file's size does not limit.
+constexpr size_t kNowhere = SIZE_MAX;  ///< the value for an invalid byteOffset: it is larger than every buffer, so it
+                                       ///< is rejected later
+/// The maximum number of elements of an accessor without a buffer view. Such elements take no bytes in the file, so the
+/// size of the file does not limit their number.
 constexpr size_t kMaxZeros = size_t{1} << 24;
 
 std::string numbered(std::string_view what, size_t number) {

@@ -10,8 +10,8 @@ namespace sgm::asset {
 
 namespace {
 
-constexpr size_t kNoOffset = SIZE_MAX;  ///< replaces an invalid byteOffset: larger than every buffer, so it is rejected
-                                        ///< later
+constexpr size_t kNoOffset = SIZE_MAX;  ///< the value for an invalid byteOffset: it is larger than every buffer, so it
+                                        ///< is rejected later
 
 /// Decodes standard base64 (RFC 4648), with or without padding. Returns nullopt if a character is invalid.
 std::optional<std::vector<std::byte>> decodedBase64(std::string_view text) {
@@ -36,7 +36,8 @@ std::optional<std::vector<std::byte>> decodedBase64(std::string_view text) {
   return out;
 }
 
-/// Returns the stride of a buffer view; nullopt means contiguous elements. Some programs write a stride of 0 for that.
+/// Returns the stride of a buffer view; nullopt: the elements are contiguous. Some programs write a stride of 0 for
+/// contiguous elements.
 std::optional<size_t> strideIn(const JsonValue& view) {
   if (view.find("byteStride") == nullptr) return std::nullopt;
   const size_t stride = view.count("byteStride").value_or(kNoOffset);

@@ -34,7 +34,8 @@ class GlbMeshes {
   size_t size() const { return meshes_.size(); }
   /// Returns the default weights of a mesh's morph targets.
   const std::vector<double>& weightsOf(size_t mesh) const { return meshes_[mesh].weights; }
-  /// Adds the triangles of a mesh instance. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
+  /// Adds the triangles of a mesh instance. Errors: bad_input, whose message gives the JSON pointer or the byte offset
+  /// of the fault; limit.
   Result<void> show(const GlbShown& shown);
   /// Returns all triangles that show() has added. Call only once. Error: bad_input if there is no triangle.
   Result<TriangleMesh> finish();

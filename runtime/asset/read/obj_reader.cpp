@@ -82,8 +82,8 @@ class ObjReader {
   }
 
  private:
-  /// The highest index of points (or normals, or texture coordinates) that faces have used so far, and its line: the
-  /// file may define that element later. Also counts invalid indices.
+  /// The highest index of points (or normals, or texture coordinates) that faces have used so far, and the line of this
+  /// use. It cannot be checked at once, because the file may define the element later. Also counts invalid indices.
   struct Reach {
     size_t number = 0, line = 0;
     NotedPlaces never;
@@ -246,8 +246,9 @@ class ObjReader {
     return fail(shown(word) + " is not a corner of a face");
   }
 
-  /// Parses an index: from 1, or negative, counting backwards from the last of the `there` elements read so far. Sets
-  /// `out` to kNoValue if the index is invalid. Returns false if there are no digits.
+  /// Parses an index, which counts from 1. A negative index counts backwards from the last element read so far; `there`
+  /// is the number of these elements. Sets `out` to kNoValue if the index is invalid. Returns false if there are no
+  /// digits.
   [[gnu::always_inline]] bool number(const char*& at, const char* end, size_t there, Reach& reach, uint32_t& out) {
     // Parse the digits here rather than by a library function, because half of a file consists of such numbers. A
     // number beyond 32 bits counts as an index that is too large.

@@ -98,8 +98,8 @@ class PlyHeaderReader {
     return {};
   }
 
-  /// Returns the offset after the header's last line. Its line end must have the same form as that of the first line,
-  /// because a following "\n" may already be a byte of a binary number.
+  /// Returns the offset after the header's last line. The end of the last line must have the same form as the end of
+  /// the first line, because a following "\n" may already be a byte of a binary number.
   size_t numbersBegin(size_t at) const {
     const std::string_view end = file_.substr(at, 2);
     if (end == "\r\n" && file_.find('\n') == file_.find('\r') + 1) return at + 2;

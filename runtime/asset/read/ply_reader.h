@@ -1,6 +1,6 @@
 #pragma once
-// Reads triangles from PLY: text, and binary of either byte order. The file is untrusted: all values in it are checked,
-// and memory and time are limited.
+// Reads triangles from PLY files: text files, and binary files of either byte order. The file is untrusted: all values
+// in it are checked, and memory and time are limited.
 
 #include <cstddef>
 #include <span>

@@ -20,8 +20,8 @@ bool PlyTextValues::hasSpareLines() const {
   return all.lines > all.records;
 }
 
-/// Called when a line first has more or fewer values than its record: decides, by counting lines, whether each line is
-/// a record or line ends have no meaning.
+/// Decides, by counting lines, whether each line is a record or line ends have no meaning. Called when a line has more
+/// or fewer values than its record for the first time.
 void PlyTextValues::findLayout() {
   if (layout_ != Layout::unknown) return;
   const auto [records, lines] = counts();

@@ -45,8 +45,8 @@ class PlyTextValues {
     out = value.value_or(0);
     return value.has_value();
   }
-  /// Ends a record. Returns false if the line has further values although an earlier line had too few: their meaning is
-  /// then ambiguous.
+  /// Ends a record. Returns false if this line has more values than expected although an earlier line had too few: then
+  /// it is not clear which values belong to which record.
   bool endRecord() { return text_.isLineDone() || passSurplus(); }
   /// Returns an upper bound for the number of elements that the rest of the file can contain: each number takes at
   /// least a digit and a blank.
@@ -55,10 +55,10 @@ class PlyTextValues {
   Error wrong(std::string_view what) const { return wrongAtLine(what, header_.lines + text_.line()); }
   /// Returns the number of the line on which the current record began.
   size_t place() const { return place_; }
-  /// True if all elements must be read, because line ends have no meaning and only the number of values tells whether
-  /// they match the header.
+  /// True if all elements must be read: line ends have no meaning, so only the total number of values tells whether the
+  /// body matches the header.
   bool mustReadAll() const { return layout_ == Layout::words; }
-  /// True if the body has more lines than the header declares records.
+  /// True if the body has more lines than the header declares records for them.
   bool hasSpareLines() const;
   /// Adds notes after the last read. whole: all elements were read. Error: bad_input if there are more values than the
   /// header declares, and their meaning is ambiguous.

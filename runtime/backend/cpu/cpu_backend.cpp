@@ -116,8 +116,8 @@ class CpuBatch final : public ChunkBatch {
   ~CpuBatch() override {
     cancel();
     wait();
-    // The job system may start some of the batch's worker jobs later. These still own the state but find no chunk to
-    // mesh, so its memory is freed now.
+    // The job system may start some of the batch's worker jobs only later. They then find no chunk to mesh, but keep
+    // the state alive until then, so the memory of its job list is freed now.
     state_->jobs.clear();
     state_->meshes.clear();
     state_->pool.reset();
@@ -171,7 +171,8 @@ class CpuBackend final : public Backend {
         share.release();
       }
     } catch (const std::bad_alloc&) {
-      // Some worker jobs could not be submitted: fewer threads work, and the thread that waits for the batch helps.
+      // There is no memory to submit more worker jobs. So fewer threads mesh this batch; the thread that waits for the
+      // batch meshes too.
     }
     return std::unique_ptr<ChunkBatch>(std::move(batch));
   }

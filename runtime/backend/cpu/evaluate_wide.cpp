@@ -8,7 +8,8 @@
 #include "backend/cpu/extract/list_vbmi2.h"
 #include "backend/cpu/instruction_sets.h"
 
-// Disables instruction sets between the supported ones; processors that have them use the next lower supported set.
+// Leaves out instruction sets between the supported ones. A processor that has such a set uses the next lower supported
+// set.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "backend/cpu/evaluate_wide.cpp"
@@ -44,7 +45,8 @@ constexpr FieldKernels kAvx2{"avx2", N_AVX2::evaluateSamples, N_AVX2::evaluateAt
 #endif
 #if HWY_TARGETS & HWY_AVX3
 constexpr FieldKernels kAvx512{"avx512", N_AVX3::evaluateSamples, N_AVX3::evaluateAttributes, N_AVX3::evaluateBox};
-// Evaluates with AVX-512 instructions; only the lists of meshing use other instructions (extract/list_vbmi2.h).
+// Evaluates the field with the same AVX-512 instructions as kAvx512. Only the lists of edges and cells for meshing are
+// made with more instructions (extract/list_vbmi2.h).
 constexpr FieldKernels kVbmi2{"avx512-vbmi2", N_AVX3::evaluateSamples, N_AVX3::evaluateAttributes, N_AVX3::evaluateBox};
 #endif
 

@@ -12,7 +12,8 @@ std::vector<InstructionSet> instructionSets() {
 }
 
 const FieldKernels& bestKernels() {
-  // The result is stored: querying the processor takes longer than a small evaluation, and never changes.
+  // The choice is made once and stored: the processor's instruction sets never change, and querying them takes longer
+  // than a small evaluation.
   static const FieldKernels& best = []() -> const FieldKernels& {
     const FieldKernels* widest = &scalarKernels();
     for (const InstructionSet& set : instructionSets()) {

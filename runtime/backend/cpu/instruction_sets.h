@@ -1,5 +1,5 @@
 #pragma once
-// Lists the instruction sets for which this build has evaluators, and those that this processor supports.
+// Lists the instruction sets for which this build has evaluators, and states which of them this processor supports.
 
 #include <string_view>
 #include <vector>
@@ -24,7 +24,7 @@ const FieldKernels& bestKernels();
 /// contain it, or this processor does not support it.
 const FieldKernels* findKernels(std::string_view name);
 
-/// Returns the vector sets of this build; empty in a scalar build.
+/// Returns the vector instruction sets of this build, that is, all except scalar; empty in a scalar build.
 std::vector<InstructionSet> wideInstructionSets();
 
 }  // namespace sgm

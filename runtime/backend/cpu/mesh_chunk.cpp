@@ -27,8 +27,8 @@ void growAttributes(MeshScratch& s, size_t count) {
   s.label.grow(0, count);
 }
 
-// Evaluates the attributes of a body's vertices, brick by brick. The pruned program of a brick is valid for its
-// vertices: each lies on an edge that begins at a sample of the brick.
+// Evaluates the attributes of a body's vertices, brick by brick, with the pruned program of each brick. This program is
+// valid at the vertices, since each vertex lies on an edge that begins at a sample of its brick.
 void fillBody(const ChunkKernels& kernels, ChunkScratch& s, MeshPart& body) {
   std::array<uint32_t, kBrickCount + 1> start;
   kernels.mesh.sort(s.mesh, body.vertices.size(), start);
@@ -69,7 +69,7 @@ void meshSeam(const ChunkKernels& kernels, const ChunkJob& job, Face face, Chunk
   for (int a = 0; a < 3; ++a) plane.hi[a] += kChunkCells * job.grid.cell;
   (faceIsHigh(face) ? plane.lo : plane.hi)[axis] = (faceIsHigh(face) ? plane.hi : plane.lo)[axis];
 
-  // The body is finished, so s.whole and s.octant can be reused.
+  // The body is finished, so s.whole and s.octant can be reused for the seams.
   prune(job.coarse->view(), plane, s.pruning, s.octant);
   const bool coarse_uniform = s.octant.solid() || s.octant.empty();
   CoarseFace coarse;
@@ -81,9 +81,10 @@ void meshSeam(const ChunkKernels& kernels, const ChunkJob& job, Face face, Chunk
   polygonizeSeam(face, s.samples, coarse, job.grid, job.coarser, seam);
   if (seam.vertices.empty() || job.sums_only) return;
 
-  // Each vertex is evaluated with the field of its own level. All vertices of a seam lie in the plane of its face, even
-  // lateral ones, so a program pruned to the plane suffices. If the plane is proven uniform, pruning leaves no program;
-  // then lateral vertices are evaluated with the whole program.
+  // Evaluates each vertex with the field of its own level, either the chunk's or the coarser one. All vertices of a
+  // seam lie in the plane of its face, even the lateral ones (between the two levels), so the program is first pruned
+  // to this plane. If pruning proves that the plane is uniform, the pruned program is empty; then the whole program is
+  // used.
   auto attributesOf = [&](bool own_level, const FieldProgram& field, PrunedProgram& pruned, bool pruned_already) {
     MeshScratch& m = s.mesh;
     const size_t most = seam.vertices.size();
@@ -111,7 +112,7 @@ void meshSeam(const ChunkKernels& kernels, const ChunkJob& job, Face face, Chunk
   kernels.mesh.hash(seam);
 }
 
-/// Makes the body, signs and counts of a chunk. uniform: the chunk is proven solid or void.
+/// Makes the body and the signs of a chunk, and counts its solid samples. uniform: the chunk is proven solid or void.
 void fillOwn(const ChunkKernels& kernels, const ChunkJob& job, bool uniform, ChunkScratch& s, ChunkMesh& mesh) {
   mesh.uniform = uniform;
   mesh.solid_samples = kernels.mesh.count(s.samples);
@@ -123,7 +124,7 @@ void fillOwn(const ChunkKernels& kernels, const ChunkJob& job, bool uniform, Chu
   kernels.mesh.hash(mesh.body);
 }
 
-/// Replaces the meshes by the sums over them, for ChunkJob::sums_only.
+/// For ChunkJob::sums_only: replaces each mesh (body and seams) by the sums over its triangles.
 void keepSums(ChunkMesh& mesh) {
   const auto keep = [&](MeshPart& part, PartSums& sums) {
     sums = sumsOf(part.vertices, part.indices);

@@ -1,6 +1,6 @@
 #pragma once
 // Meshes one chunk from its field programs: bounds the field, samples it, polygonizes, evaluates attributes and
-// computes hashes. A chunk is small enough to stay in cache.
+// computes hashes. The data of one chunk are small enough to stay in the cache.
 
 #include <array>
 

@@ -1,6 +1,6 @@
-// The types of shaders/common over Highway vectors. evaluate_wide.cpp includes this file once for each instruction set,
-// inside that set's namespace, so it has no guard. MulAdd, Sqrt and the approximate reciprocals are never used
-// (arithmetic contract in runtime/README.md, rule 2).
+// Defines the types that shaders/common needs (Real, Int, ...) as Highway vectors. evaluate_wide.cpp includes this file
+// once for each instruction set, inside that set's namespace, so the file has no include guard. The code never uses
+// MulAdd, Sqrt and the approximate reciprocals (arithmetic contract in runtime/README.md, rule 2).
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -79,7 +79,8 @@ FN Real bitsToReal(Uint u) { return hn::BitCast(RealTag(), u.v); }
 FN Uint realToBits(Real r) { return hn::BitCast(UintTag(), r.v); }
 FN Real gatherReal(Params P, Int i) { return hn::BitCast(RealTag(), hn::GatherIndex(UintTag(), P, i.v)); }
 FN Real toReal(Int i) { return hn::ConvertTo(RealTag(), i.v); }
-// Precondition: |r| < 2^31. Highway's version also defines other results, which takes four more instructions.
+// Precondition: |r| < 2^31. Highway's own conversion also defines the results for larger values, and needs four more
+// instructions for that.
 FN Int toInt(Real r) {
 #if HWY_TARGET == HWY_AVX3
   return hn::Vec<IntTag>{_mm512_cvttps_epi32(r.v.raw)};
@@ -115,17 +116,19 @@ FN Real loadReal(const uint32_t* p) { return hn::BitCast(RealTag(), hn::Load(Uin
 FN Int loadInt(const uint32_t* p) { return hn::BitCast(IntTag(), hn::Load(UintTag(), p)); }
 FN void storeReal(Real r, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), r.v), UintTag(), p); }
 FN void storeInt(Int i, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), i.v), UintTag(), p); }
-// Returns for each lane the entry of `table` at the lane's index, 0 to kLanes - 1.
+// For each lane, returns the entry of `table` that the lane's index (0 to kLanes - 1) selects.
 FN Real lookUp(Real table, Int index) { return hn::TableLookupLanes(table.v, hn::IndicesFromVec(RealTag(), index.v)); }
 #if HWY_TARGET == HWY_AVX3
 #define SGM_LANE_TABLES
-// Returns for each lane the entry of a table of 16 floats at the lowest four bits of the lane's index.
+// For each lane, returns an entry of a table of 16 floats: the one that the lowest four bits of the lane's index
+// select.
 FN Real lookUp16(const float* table, Uint index) {
   return hn::Vec<RealTag>{_mm512_permutexvar_ps(index.v.raw, _mm512_loadu_ps(table))};
 }
 #endif
 #define SGM_ROWS
-// Loads 8 words from `first`; with 16 lanes, also 8 words from `second` behind them.
+// Loads 8 words from `first` into the first 8 lanes; if vectors have 16 lanes, also loads 8 words from `second` into
+// the other lanes.
 FN Real loadRows(const uint32_t* first, [[maybe_unused]] const uint32_t* second) {
 #if HWY_TARGET == HWY_AVX3
   const hn::Half<UintTag> half;
@@ -148,7 +151,8 @@ FN uint64_t maskOf(Bool b) {
   return bits;
 #endif
 }
-// Returns a word in which bit i is set if p[i] is negative, for i < count. Reads whole vectors.
+// Returns a word in which bit i is set if p[i], read as int32, is negative, for i < count. Reads whole vectors, so it
+// may read words after p[count - 1].
 FN uint64_t signMask(const uint32_t* p, size_t count) {
   uint64_t mask = 0;
   for (size_t i = 0; i < count; i += kLanes)

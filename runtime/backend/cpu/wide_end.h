@@ -1,4 +1,5 @@
-// Undefines the macros of wide.h and shaders/common for the next instruction set. No guard, as in wide.h.
+// Undefines the macros of wide.h and shaders/common, so that the next instruction set can define them again. Like
+// wide.h, the file has no include guard.
 
 #undef FN
 #undef PRECISE

@@ -77,7 +77,8 @@ Result<std::unique_ptr<Backend>> makeCuda(const BackendRequest& request, JobSyst
   options.open = [table = *driver, external = request.external_context, index = device,
                   opened = std::make_shared<bool>(false)]() -> Result<std::unique_ptr<cuda::Device>> {
     if (!external) return cuda::openDevice(table, cuda::kernelImage(), index);
-    // A lost context is not opened again: meshes in it would count as present on the device although they are lost.
+    // The engine's context is opened only once. If a lost context were opened again, meshes that were lost with it
+    // would still count as present on the device.
     if (std::exchange(*opened, true)) return Error{Code::device_lost, "the engine's CUDA context was lost"};
     return cuda::borrowDevice(table, cuda::kernelImage(), *external);
   };

@@ -26,11 +26,12 @@ struct BackendRequest {
   bool automatic = false;  ///< true: ignores kind and chooses CUDA, or else a hardware Vulkan device, or else the CPU
   /// index in the list of devices of its kind; -1: the first usable one (CUDA), or the fastest one (Vulkan)
   int device = -1;
-  /// Instruction set of the CPU backend, also beside a device: "scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2";
-  /// empty: the widest that this processor supports.
+  /// Instruction set of the CPU backend: "scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"; empty: the widest that
+  /// this processor supports. A device backend also has a CPU backend with this instruction set, for chunks that the
+  /// device cannot mesh.
   std::string instruction_set;
-  /// Vulkan: the engine's device; null: a new one is created. CUDA: the Vulkan device in whose memory meshes stay, with
-  /// external_memory set; or null
+  /// Vulkan: the engine's device; null: the backend creates a device. CUDA: the Vulkan device in whose memory meshes
+  /// stay, with external_memory set; null: there is none.
   std::shared_ptr<const vulkan::BorrowedDevice> external = nullptr;
   /// CUDA: the engine's context; null: a new one is used
   std::shared_ptr<const cuda::BorrowedContext> external_context = nullptr;

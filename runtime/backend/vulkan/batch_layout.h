@@ -1,6 +1,6 @@
 #pragma once
-// The layout of a batch's words, as the mesher's shaders read and write them: shaders/mesher/batch.glsl in C++, where
-// each word is explained.
+// The layout of a batch's words, as the mesher's shaders read and write them. This is the C++ version of
+// shaders/mesher/batch.glsl, which explains each word.
 
 #include <cstdint>
 
@@ -21,7 +21,8 @@ struct Seam {
 };
 static_assert(sizeof(Seam) == 8 * sizeof(uint32_t));
 
-/// A set of boxes that are pruned together from one program: the bricks of a chunk, or planes for seams.
+/// A pruning job: one program is pruned to each box of a set. The boxes are the bricks of a chunk, or the planes of its
+/// seams.
 struct PruneJob {
   enum Kind : uint32_t { bricks, own_planes, coarse_planes };
   uint32_t headers, records, kind, chunk, first_seam, seam_count, lists;
@@ -53,7 +54,8 @@ struct Sums {
 };
 static_assert(sizeof(Sums) == 10 * sizeof(uint32_t));
 
-/// The push constants (shaders/mesher/sizes.glsl). The list of active cells has kCellWords words for each of max_cells.
+/// The push constants (shaders/mesher/sizes.glsl). The list of active cells has room for max_cells cells of kCellWords
+/// words each.
 struct Sizes {
   uint32_t part_count, seam_records, cell_list, max_vertices, max_indices, max_cells;
   // Sizes for pruning, sampling and attributes (shaders/mesher/items.glsl).
@@ -73,7 +75,7 @@ inline constexpr uint32_t kUnitWords = 4;
 // Numbers of words in scratch, rounded up so that every offset is a multiple of four.
 inline constexpr uint32_t kSampleWords = 33 * 33 * 33 + 3;   ///< words for the samples of a chunk
 inline constexpr uint32_t kSignWords = 2 * 33 * 33 + 2;      ///< words for the signs of a chunk
-inline constexpr uint32_t kRowsWords = 5384;                 ///< words for the counts of each row of a chunk
+inline constexpr uint32_t kRowsWords = 5384;                 ///< words for the counts of all rows of a chunk
 inline constexpr uint32_t kCoarseSampleWords = 17 * 17 + 3;  ///< words for the samples of a seam's coarser level
 inline constexpr uint32_t kCoarseSignWords = 17 + 3;         ///< words for the signs of a seam's coarser level
 inline constexpr uint32_t kSeamCountWords = 392;             ///< words for the counts of a seam

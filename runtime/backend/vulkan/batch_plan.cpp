@@ -11,11 +11,13 @@ namespace {
 constexpr uint32_t kChunkWords = sizeof(batch::Chunk) / 4, kSeamWords = sizeof(batch::Seam) / 4,
                    kJobWords = sizeof(batch::PruneJob) / 4, kHeadWords = sizeof(batch::Head) / 4,
                    kPartWords = sizeof(batch::Part) / 4;
-constexpr uint32_t kJobsOfChunk = 3;  // pruning jobs per chunk: for bricks, seams' planes, coarser level's planes
+// pruning jobs per chunk: one for its bricks, one for the planes of its seams, and one for these planes with the field
+// of the coarser level
+constexpr uint32_t kJobsOfChunk = 3;
 // Number of words that must follow the last record and the last header, because shaders read them as whole vectors.
 constexpr uint32_t kBeyond = 256;
-// Maximum number of chunks in a batch. With more, units of attributes could need over 65,535 workgroups, or the indices
-// of items over 20 bits.
+// Maximum number of chunks in a batch. With more chunks, the attributes might need more than 65,535 workgroups, and the
+// index of an item more than 20 bits.
 constexpr size_t kMaxChunks = 64;
 
 uint32_t seamsOf(const ChunkJob& job) { return job.coarse ? static_cast<uint32_t>(std::popcount(job.seams)) : 0u; }
@@ -27,7 +29,7 @@ bool isUniform(const ChunkJob& job) {
   return bare(*job.field) && (seamsOf(job) == 0 || (bare(*job.coarse) && job.coarse->initial == job.field->initial));
 }
 
-/// Allocates offsets in scratch, which are multiples of four.
+/// Allocates ranges of words in scratch. Every offset is a multiple of four.
 class Places {
  public:
   uint32_t take(uint64_t words) {
@@ -67,8 +69,8 @@ class Planner {
     plan.meshes = plan.sums = false;
   }
 
-  /// Adds job i to the plan. Returns false, without any change, if scratch is too small for the job. must: adds the job
-  /// even then.
+  /// Adds job i to the plan. Returns false, without any change, if scratch is too small for the job. must: true adds
+  /// the job even if scratch is too small.
   bool add(uint32_t i, uint32_t max_scratch, bool must) {
     const ChunkJob& job = jobs_[i];
     const uint32_t seams = seamsOf(job);
@@ -118,8 +120,8 @@ class Planner {
   }
 
  private:
-  /// Appends the program's tape. If the tape exceeds a limit of the shaders, appends that of the program pruned to the
-  /// chunk. Returns false if that tape exceeds a limit, too.
+  /// Appends the program's tape. If this tape exceeds a limit of the shaders, prunes the program to the chunk and
+  /// appends the tape of the pruned program instead. Returns false if that tape exceeds a limit, too.
   bool append(const FieldProgram& program, const ChunkJob& job, Tape& tape) {
     if (appendTape(program.view(), plan_.tape_scratch, plan_.words, tape)) return true;
     IntBox box{job.grid.origin, job.grid.origin};
@@ -129,7 +131,8 @@ class Planner {
     if (!solid && !plan_.pruned.empty()) {
       return appendTape(plan_.pruned.view(), plan_.tape_scratch, plan_.words, tape);
     }
-    // The chunk is uniform, so the pruned program has no groups. The vertices of a seam would need the whole program.
+    // Pruning shows that the chunk is uniform, so the chunk itself needs no groups. But for the vertices of seams the
+    // whole program would be needed, and its tape exceeds a limit.
     if (seamsOf(job) > 0) return false;
     ProgramView uniform;
     uniform.initial = solid ? -kFar : kFar;
@@ -137,8 +140,8 @@ class Planner {
     return appendTape(uniform, plan_.tape_scratch, plan_.words, tape);
   }
 
-  /// Returns an upper bound of the words for units. Each unit except an item's last one has at least as many vertices
-  /// as a subgroup has invocations, which is at least 8.
+  /// Returns an upper bound of the number of words for units. A unit has as many vertices as a subgroup has
+  /// invocations, so at least 8; only the last unit of each item may have fewer.
   static uint64_t unitWords(uint64_t vertices, uint64_t items) { return (vertices / 8 + items) * batch::kUnitWords; }
 
   uint64_t scratchWords() const {

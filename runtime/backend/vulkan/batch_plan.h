@@ -1,5 +1,5 @@
 #pragma once
-// The plan of one submission: the words that its shaders read, and where they write their results.
+// The plan of one submission: the words that its shaders read, and the places where the shaders write their results.
 
 #include <array>
 #include <memory_resource>
@@ -13,14 +13,16 @@
 
 namespace sgm {
 
-/// Maximum numbers of vertices, indices and active cells in a batch, divided by its number of chunks (at least 8).
+/// Numbers of vertices, indices and active cells per chunk. A batch of n chunks has room for max(n, 8) times these
+/// numbers, which its chunks share.
 struct BatchRoom {
   uint32_t vertices = 6144;
   uint32_t indices = 36864;
   uint32_t cells = 6144;
 };
 
-/// The plan of a batch. It is reused for further batches, and stops allocating memory once it is large enough.
+/// The plan of a batch. The object is reused for further batches; once its arrays are large enough, it allocates no
+/// more memory.
 struct BatchPlan {
   explicit BatchPlan(std::pmr::memory_resource* memory)
       : words(memory),
@@ -47,19 +49,19 @@ struct BatchPlan {
   std::pmr::vector<uint32_t> refused;  ///< indices of jobs that the device cannot mesh
   batch::Sizes sizes{};
   uint32_t seam_count = 0;
-  /// number of pruning jobs for planes; they follow the pruning jobs for bricks, one for each chunk
+  /// number of pruning jobs for planes; in the list of jobs they follow the jobs for bricks (one for each chunk)
   uint32_t plane_jobs = 0;
-  uint32_t plane_jobs_at = 0;  ///< offset of the pruning jobs for planes in `words`
+  uint32_t plane_jobs_at = 0;  ///< offset, in `words`, of the pruning jobs for the planes of seams
   uint32_t scratch_words = 0;
-  uint64_t kinds = 0;                 ///< the kinds of instructions in all tapes, as Tape::kinds
-  bool meshes = false, sums = false;  ///< true if a job requests its mesh; true if a job requests only sums
+  uint64_t kinds = 0;                 ///< kinds of instructions in all tapes, one bit each (see Tape::kinds)
+  bool meshes = false, sums = false;  ///< meshes: some job requests its mesh; sums: some job requests only sums
   TapeScratch tape_scratch;
   PruneScratch prune_scratch;
   PrunedProgram pruned;
 };
 
-/// Plans jobs for one submission. Returns how many of the jobs were planned, from the first on: at most 64, fewer if
-/// they need more than max_scratch words, but at least one. Throws std::bad_alloc.
+/// Plans jobs for one submission, starting with the first job. Returns the number of planned jobs: at most 64; fewer if
+/// the jobs need more than max_scratch words, but at least one. Throws std::bad_alloc.
 size_t planBatch(std::span<const ChunkJob> jobs, const BatchRoom& room, uint32_t max_scratch, BatchPlan& plan);
 
 }  // namespace sgm

@@ -33,7 +33,8 @@ Scope scopeOf(uint32_t uses) {
 struct Commands::Slot {
   enum State { idle, recording, submitted };
   State state = idle;
-  uint64_t value = 0;  // queue value at the end of the commands, once submitted
+  uint64_t value = 0;  // value of the queue's timeline semaphore once these commands have ended; set at their
+                       // submission
   VkCommandPool pool = VK_NULL_HANDLE;
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkDescriptorPool sets = VK_NULL_HANDLE;
@@ -133,7 +134,7 @@ void Commands::acquire(std::span<const BufferRange> ranges) {
     barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER;
     barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
     barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_EXTERNAL;
-    // Buffers that several queue families share have no owner.
+    // Buffers that several queue families share have no owner, so their ownership is not transferred.
     barrier.dstQueueFamilyIndex = device.sharesBuffers() ? VK_QUEUE_FAMILY_IGNORED : device.family();
     barrier.buffer = range.handle;
     barrier.offset = range.offset;

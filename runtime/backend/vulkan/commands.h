@@ -38,16 +38,17 @@ enum Uses : uint32_t {
 
 class CommandRing;
 
-/// A command buffer in recording. Its commands run only if it is passed to CommandRing::submit. Not thread-safe.
+/// A command buffer that is being recorded. Its commands run only after it is passed to CommandRing::submit. Not
+/// thread-safe.
 class Commands {
  public:
   Commands(Commands&& other) noexcept;
   Commands& operator=(Commands&&) = delete;
   ~Commands();
 
-  /// Sets the shader for the following dispatches, its buffers in the order of their bindings, and its push constants;
-  /// their numbers must be those for which the pipeline was created. Errors: invalid_argument; out_of_memory, also if
-  /// this recording has used up its descriptor sets.
+  /// Sets the shader for the following dispatches, its buffers in the order of their bindings, and its push constants.
+  /// The number of buffers and the size of the push constants must be those for which the pipeline was created. Errors:
+  /// invalid_argument; out_of_memory, also if this recording has used up its descriptor sets.
   Result<void> bind(const Pipeline& pipeline, std::span<const BufferRange> buffers, std::span<const std::byte> push);
   /// Runs the shader. x, y, z: numbers of workgroups, each at most maxComputeWorkGroupCount.
   void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);
@@ -93,8 +94,8 @@ class CommandRing {
   CommandRing(const CommandRing&) = delete;
   CommandRing& operator=(const CommandRing&) = delete;
 
-  /// Begins a recording. If all recordings are in use, waits at most this long for one to end. A thread must not begin
-  /// another recording while it holds all others. Errors: limit (timeout), device_lost, out_of_memory.
+  /// Begins a recording. If all recordings are in use, waits at most `nanoseconds` until one of them ends. A thread
+  /// must not begin another recording while it holds all others. Errors: limit (timeout), device_lost, out_of_memory.
   Result<Commands> begin(uint64_t nanoseconds = UINT64_MAX);
   /// Submits the recording to the queue; returns the value of Queue::submit. The recording ends, even after an error.
   Result<uint64_t> submit(Commands commands);
@@ -104,7 +105,7 @@ class CommandRing {
   explicit CommandRing(Queue& queue);
   Result<void> fill(Commands::Slot& slot, const CommandRingOptions& options);
   Result<Commands::Slot*> findSlot(uint64_t nanoseconds);
-  /// Waits at most this long until a slot is no longer in recording; returns whether there is one.
+  /// Waits at most this long until some slot is no longer in recording; returns whether there is such a slot.
   bool awaitRecorded(uint64_t nanoseconds);
 
   Queue& queue_;

@@ -44,7 +44,7 @@ struct BorrowedDevice {
   bool memory_budget = false;          ///< true: the extension VK_EXT_memory_budget is enabled
   bool external_memory = false;        ///< true: the extension VK_KHR_external_memory_fd is enabled
   uint64_t resident_cap = UINT64_MAX;  ///< limit in bytes for meshes that stay in the device's memory
-  /// Serialises the library's own uses of the queue among each other.
+  /// Held while the library uses the queue, so that its threads use the queue one at a time.
   std::shared_ptr<std::mutex> queue_mutex = std::make_shared<std::mutex>();
   ReplaceCalls replace_calls = nullptr;
 };
@@ -109,7 +109,8 @@ class Device {
   void* user_ = nullptr;
 };
 
-/// Locks the device's queue during its lifetime, against other uses by the library and the engine.
+/// Holds the device's queue locked as long as this object exists, so that neither the library nor the engine uses it on
+/// another thread.
 class QueueLock {
  public:
   explicit QueueLock(Device& device) : device_(device), ours_(*device.queue_mutex_) {

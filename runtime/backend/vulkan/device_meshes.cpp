@@ -9,8 +9,8 @@ namespace {
 /// Size of a draw command, padded so that the following vertices begin at a multiple of their size.
 constexpr VkDeviceSize kDrawBytes = 2 * sizeof(Vertex);
 static_assert(sizeof(VkDrawIndexedIndirectCommand) <= kDrawBytes);
-// The alignment of vertices holds since buffers begin at multiples of 256 bytes; and a draw command can address every
-// vertex of a block.
+// A buffer begins at a multiple of 256 bytes, so vertices are aligned to their size; and the vertex offset of a draw
+// command can reach every vertex of a block.
 static_assert(256 % sizeof(Vertex) == 0);
 static_assert(MemoryOptions{}.largest_block / sizeof(Vertex) <= INT32_MAX);
 
@@ -120,7 +120,7 @@ Result<KeptParts> DeviceMeshes::keep(const std::shared_ptr<const void>& owner, s
   PlacedParts placed = place(owner, sizes);
   KeptParts kept{std::move(placed.chunks)};
   if (placed.parts.empty()) return kept;
-  // Waits if other threads hold all recordings, which they do only briefly.
+  // If other threads hold all command buffers of the ring, this call waits; they hold them only briefly.
   Result<Commands> commands = ring_.begin();
   if (!commands) return commands.error();
   // The copies wait for the shaders that write their sources.
@@ -197,7 +197,8 @@ DeviceMeshes::Retired DeviceMeshes::takeEnded() noexcept {
 
 void DeviceMeshes::retire(Buffer&& buffer, uint64_t value) noexcept {
   Buffer retired = std::move(buffer);
-  // The buffer is never freed: another API may still be writing to it, regardless of the state of this queue.
+  // kNever: another API may still be writing to the buffer, regardless of the state of this queue. So the buffer is
+  // never freed.
   if (value == DeviceMemory::kNever) return retired.forget();
   giveBack();
   if (value <= reached()) return;

@@ -1,6 +1,6 @@
 #pragma once
-// Meshes that stay on the device. Parts are copied from a batch's buffers, or uploaded from the host, to separate
-// memory, where the engine that owns the device draws them.
+// Meshes that stay on the device. Their parts are copied from a batch's buffers, or uploaded from the host, to memory
+// of their own. The engine, which owns the device, draws them from there.
 
 #include <array>
 #include <list>
@@ -18,8 +18,8 @@ namespace sgm::vulkan {
 
 class DeviceMeshes;
 
-/// The memory of parts that were copied together. It may be destroyed before the copying ends, but not before the
-/// engine's own commands that use it have ended.
+/// The memory of parts that were copied together. This object may be destroyed before the copying ends, but not before
+/// the engine's own commands that use the memory have ended.
 class DeviceMemory {
  public:
   DeviceMemory(std::shared_ptr<const void> owner, DeviceMeshes& meshes, Buffer&& buffer)
@@ -57,7 +57,8 @@ class VulkanPart final : public DevicePart {
   VkDeviceSize indexOffset() const;                  ///< offset of the indices; a multiple of 4
   uint32_t vertexCount() const { return vertices_; }
   uint32_t indexCount() const { return indices_; }
-  /// Returns the draw command for binding the whole buffer, both as vertices and as 32-bit indices.
+  /// Returns the draw command. It requires that the whole buffer is bound twice: as vertex buffer, and as buffer of
+  /// 32-bit indices.
   VkDrawIndexedIndirectCommand draw() const;
   const DeviceMemory& memory() const { return *memory_; }
 
@@ -71,7 +72,8 @@ class VulkanPart final : public DevicePart {
 struct PartSource {
   BufferRange vertices, indices;
 };
-using PartSources = std::array<PartSource, kMeshParts>;  ///< in the order of DeviceParts
+/// the sources of a chunk's parts, in the order of DeviceParts
+using PartSources = std::array<PartSource, kMeshParts>;
 
 /// Parts that have memory but no content yet.
 struct PlacedParts {
@@ -98,18 +100,18 @@ class DeviceMeshes {
   DeviceMeshes(Queue& queue, Memory& memory, Memory& staging, CommandRing& ring)
       : queue_(queue), memory_(memory), staging_(staging), ring_(ring) {}
 
-  /// Allocates memory for parts. owner: stored in the parts to keep it alive. Throws std::bad_alloc.
+  /// Allocates memory for parts. owner: the parts keep it alive. Throws std::bad_alloc.
   PlacedParts place(const std::shared_ptr<const void>& owner, std::span<const PartSizes> chunks);
-  /// Makes content that another API has finished writing into placed parts visible to later commands of the queue.
-  /// Errors: same as CommandRing::submit. Throws std::bad_alloc.
+  /// For placed parts whose content another API has finished writing: makes the content visible to later commands of
+  /// the queue. Errors: same as CommandRing::submit. Throws std::bad_alloc.
   Result<void> acquire(const PlacedParts& placed);
-  /// Never frees the memory of the parts, because another API may still be writing to it.
+  /// Gives placed parts up without ever freeing their memory, because another API may still be writing to it.
   static void abandon(const PlacedParts& placed) noexcept;
 
   /// Copies parts asynchronously. Returns one DeviceParts for each chunk: null for parts without a source; all null for
-  /// a chunk for which there is no memory. Later submissions may write to the sources, but the host must not before the
-  /// copying ends. owner is kept alive and must own this object. Errors: same as CommandRing::submit. Throws
-  /// std::bad_alloc.
+  /// a chunk for which there is no memory. Later submissions may overwrite the sources at once; the host must not
+  /// overwrite them before the copying ends. owner is kept alive and must own this object. Errors: same as
+  /// CommandRing::submit. Throws std::bad_alloc.
   Result<KeptParts> keep(const std::shared_ptr<const void>& owner, std::span<const PartSources> chunks);
   /// Uploads parts from the host, as Backend::upload does; blocks until they are on the device. Errors: those of keep()
   /// and of Memory::buffer.
@@ -122,12 +124,13 @@ class DeviceMeshes {
 
  private:
   friend class DeviceMemory;
-  /// Frees the buffer when the queue has reached the timeline value.
+  /// Keeps the buffer until the queue has reached the timeline value, then frees it. Never frees it if the value is
+  /// DeviceMemory::kNever.
   void retire(Buffer&& buffer, uint64_t value) noexcept;
   using Retired = std::list<std::pair<uint64_t, Buffer>>;
   /// Returns the timeline value that the queue has reached, for freeing buffers.
   uint64_t reached() const noexcept;
-  /// Removes the buffers that can be freed from the list; the caller destroys them after releasing the mutex.
+  /// Removes from the list the buffers that can be freed; the caller destroys them after releasing the mutex.
   /// Precondition: the mutex is held.
   Retired takeEnded() noexcept;
   void giveBack() noexcept;

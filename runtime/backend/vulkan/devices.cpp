@@ -5,7 +5,7 @@
 namespace sgm::vulkan {
 namespace {
 
-// The requirements of the mesher's shaders.
+// Limits that a device must meet so that the mesher's shaders run.
 constexpr uint64_t kLeastStorageRange = uint64_t{128} << 20;
 constexpr uint32_t kLeastSharedBytes = 32 << 10;
 constexpr uint32_t kLeastInvocations = 256;

@@ -92,7 +92,7 @@ Result<std::vector<VkPhysicalDevice>> Instance::devices() const {
   std::vector<VkPhysicalDevice> devices(count);
   if (result == VK_SUCCESS && count) result = calls_.vkEnumeratePhysicalDevices(instance_, &count, devices.data());
   if (result < 0) return errorOf(result, "listing Vulkan devices");
-  devices.resize(count);  // a device may have disappeared between the two calls
+  devices.resize(count);  // shorter if a device has disappeared between the two calls
   return devices;
 }
 

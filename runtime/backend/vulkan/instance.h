@@ -39,8 +39,8 @@ class MessageLog {
 
 struct InstanceOptions {
   Validation validation = Validation::none;
-  /// Receives the messages, including those about objects that exist when the instance is destroyed; null: the instance
-  /// creates its own log.
+  /// Receives the messages of the validation layer, also those about objects that still exist when the instance is
+  /// destroyed; null: the instance creates a log of its own.
   std::shared_ptr<MessageLog> log = nullptr;
   /// May replace entries of the function table before any call except vkCreateInstance; for tests.
   std::function<void(InstanceTable&)> replace_calls = nullptr;

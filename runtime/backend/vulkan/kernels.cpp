@@ -29,8 +29,8 @@ namespace sgm::vulkan {
 
 namespace {
 
-// On a software device a workgroup is one subgroup: with several, data shared by a workgroup would be loaded once for
-// each.
+// On a software device, a workgroup is a single subgroup. With several subgroups, data shared by a workgroup would be
+// loaded once for each subgroup.
 constexpr uint32_t kSoftwareWidth = 8, kHardwareWidth = 64;
 constexpr uint64_t kAllKinds = ~uint64_t{0};
 // The creation of pipelines is reported only if it takes longer than this, in seconds.

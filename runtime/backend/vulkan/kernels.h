@@ -88,9 +88,11 @@ class Kernels {
   const Profiler profiler_;
   const KernelNews news_;
 
-  std::mutex making_mutex_;         ///< held while pipelines are created; locked before mutex_
-  std::array<Made, kernels> made_;  ///< pipelines by kernel; during replacement, they may support different kinds
-  bool warned_ = false;             ///< true if the warning that pipelines cannot be created was sent; it is sent once
+  std::mutex making_mutex_;  ///< held while pipelines are created; locked before mutex_
+  /// One pipeline per kernel. While the pipelines are being replaced, some may support more kinds of instructions than
+  /// others.
+  std::array<Made, kernels> made_;
+  bool warned_ = false;  ///< true if the warning that pipelines cannot be created was sent; it is sent once
 
   std::mutex mutex_;
   uint64_t kinds_ = 0;   ///< kinds of instructions that the pipelines support

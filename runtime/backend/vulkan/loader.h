@@ -1,5 +1,5 @@
 #pragma once
-// Fills the function tables, and converts Vulkan results to errors.
+// Loads Vulkan's function pointers into tables, and converts VkResult codes to errors.
 
 #include <string>
 
@@ -8,12 +8,12 @@
 
 namespace sgm::vulkan {
 
-/// Opens libvulkan.so.1, which is never closed: drivers have thread-local destructors, which must exist as long as
-/// every thread. Error: unsupported; the message says what to install.
+/// Opens libvulkan.so.1 and never closes it: drivers have thread-local destructors, so their code must stay loaded as
+/// long as any thread exists. Error: unsupported; the message says what to install.
 Result<GlobalTable> openLoader();
 
-/// Fills the table of an instance. Returns false if a function of Vulkan 1.2 is missing; then the table still has the
-/// others, so that the instance can be destroyed.
+/// Fills the table of an instance. Returns false if a function of Vulkan 1.2 is missing; the table then still contains
+/// all other functions, so that the instance can be destroyed.
 bool loadInstance(PFN_vkGetInstanceProcAddr resolve, VkInstance instance, InstanceTable& table);
 /// Same as loadInstance, for the table of a device.
 bool loadDevice(const InstanceTable& instance, VkDevice device, DeviceTable& table);

@@ -25,8 +25,8 @@ int scoreOf(VkMemoryPropertyFlags flags, MemoryKind kind, bool unified) {
   // Protected, lazily allocated and vendor-specific memory has special rules, so it is not used.
   if (flags & ~(kNear | kVisible | kCoherent | kCached)) return -1;
   const auto has = [&](VkMemoryPropertyFlags bits) { return (flags & bits) == bits ? 1 : 0; };
-  // Where host and device memory are separate, upload and readback buffers avoid device memory that the host can see:
-  // there is little of it, and other programs need it.
+  // If host and device have separate memory, upload and readback buffers avoid the part of device memory that the host
+  // can see: that part is small, and other programs need it.
   const int fits = has(kNear) == (unified ? 1 : 0) ? 1 : 0;
   switch (kind) {
     case MemoryKind::device:

@@ -27,7 +27,7 @@ enum class MemoryKind : uint8_t {
 inline constexpr size_t kMemoryKinds = 3;
 
 /// Returns the index of the best memory type among those in `allowed` (one bit each); -1 if none is suitable. unified:
-/// host and device share their memory, so that it is fast for both. Pure.
+/// host and device share one memory, so every memory type is fast for both. Pure.
 int chooseMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed, MemoryKind kind, bool unified);
 
 struct MemoryOptions {
@@ -42,7 +42,7 @@ struct MemoryOptions {
 
 struct MemoryStatistics {
   uint64_t used = 0;      ///< total size of existing buffers in bytes
-  uint64_t reserved = 0;  ///< total size of all blocks in bytes
+  uint64_t reserved = 0;  ///< total size of all blocks in bytes, including their unused ranges
   uint32_t buffers = 0;
   uint32_t blocks = 0;
 };
@@ -50,8 +50,8 @@ struct MemoryStatistics {
 class Memory;
 
 /// A range of a VkBuffer, usable as a storage buffer, for transfers and indirect commands, and for vertices and
-/// indices. Its destructor frees the range, and must run after the last command that uses it. The Memory must outlive
-/// it.
+/// indices. The destructor frees the range, so it must run after the last command that uses the range. The Memory must
+/// outlive the Buffer.
 class Buffer {
  public:
   Buffer() = default;
@@ -81,9 +81,11 @@ class Buffer {
   std::byte* data_ = nullptr;
 };
 
-/// How another API must import blocks of the device's memory. nullopt if it cannot.
+/// How another API must import blocks of the device's memory. sharedMemoryNeeds() returns nullopt if the device cannot
+/// export its memory.
 struct SharedMemoryNeeds {
-  bool dedicated = false;  ///< true: each block is one allocation for one buffer, and must be imported as such
+  /// true: each block must be a dedicated allocation for its single VkBuffer, and must be imported as such
+  bool dedicated = false;
 };
 std::optional<SharedMemoryNeeds> sharedMemoryNeeds(const Device& device);
 
@@ -107,8 +109,8 @@ class Memory {
   friend class Buffer;
   struct Block;
   void give(Buffer& buffer) noexcept;
-  /// Frees the buffer's range. Returns its block, which the caller must destroy, if the block is no longer needed.
-  /// Precondition: the mutex is held.
+  /// Frees the buffer's range. If the block of the range is no longer needed, returns the block, which the caller must
+  /// destroy; otherwise returns null. Precondition: the mutex is held.
   std::unique_ptr<Block> giveRange(const Buffer& buffer) noexcept;
   Result<Block*> addBlock(MemoryKind kind, VkDeviceSize bytes, bool whole);
   Result<void> fill(Block& block, MemoryKind kind, VkDeviceSize bytes);

@@ -28,7 +28,7 @@ Result<void> grow(Memory& memory, MemoryKind kind, uint64_t bytes, Buffer& buffe
 
 uint32_t Mesher::maxScratchWords() const {
   const uint64_t range = std::min<uint64_t>(queue_.device().limits().maxStorageBufferRange, uint64_t{128} << 20);
-  // three quarters, because grow() makes buffers a quarter larger than requested
+  // Only three quarters of the range: grow() makes a buffer up to a quarter larger than requested.
   return static_cast<uint32_t>(range / sizeof(uint32_t) / 4 * 3);
 }
 
@@ -205,8 +205,8 @@ Result<Mesher::Output> Mesher::read(const BatchPlan& plan, BatchBuffers& b) {
 Result<void> Mesher::downloadLater(const batch::Head& head, BatchBuffers& b) {
   const uint64_t vertices = uint64_t{head.vertices} * sizeof(Vertex);
   const uint64_t indices = uint64_t{head.indices} * sizeof(uint32_t);
-  // Successive batches are similar, so the next batch downloads a quarter more than this batch needed, without waiting
-  // for its own numbers.
+  // Successive batches are similar. So the next batch, whose own numbers are unknown when it is submitted, downloads a
+  // quarter more than this batch needed.
   usual_vertices_.store((vertices + vertices / 4) / 256 * 256);
   usual_indices_.store((indices + indices / 4) / 256 * 256);
   if (vertices <= b.brought_vertices && indices <= b.brought_indices) return {};

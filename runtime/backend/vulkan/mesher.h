@@ -14,11 +14,12 @@ namespace sgm::vulkan {
 /// The buffers of one batch; reused for further batches, and enlarged if necessary.
 struct BatchBuffers {
   Buffer words, staging, scratch, parts, vertices, indices;
-  /// Copies for the host, if it cannot read the device's buffers. While batches run, their buffers together form a ring
-  /// for downloads. The host does not know the numbers of vertices and indices when it submits a batch. So the
-  /// submission downloads as many as recent batches had; if the batch has more, the rest is downloaded later.
+  /// Buffers into which results are copied for the host; unused if the host can read the device's own buffers. The copy
+  /// buffers of all running batches together form a ring for downloads. When the host submits a batch, it does not know
+  /// the numbers of vertices and indices. So the submission downloads as many as recent batches had; if the batch has
+  /// more, the rest is downloaded later.
   Buffer parts_back, signs_back, vertices_back, indices_back;
-  /// bytes of vertices and of indices that the submission itself downloads
+  /// bytes of vertices and of indices whose download is a part of the submission itself
   uint64_t brought_vertices = 0, brought_indices = 0;
   uint64_t reading = 0;  ///< timeline value of the queue at which the download of vertices and indices has ended
 };
@@ -45,7 +46,8 @@ class Mesher {
     const uint32_t* indices = nullptr;
     /// signs of the plan's chunks, one chunk after the other, batch::kSignWords words each
     const uint32_t* signs = nullptr;
-    /// true: `signs` points to scratch, so that each chunk's own offset must be added
+    /// true: `signs` points to the shaders' scratch memory, where the signs of a chunk begin at the offset that the
+    /// plan gives for the chunk
     bool signs_in_place = false;
   };
   Result<Output> read(const BatchPlan& plan, BatchBuffers& buffers);

@@ -21,7 +21,8 @@ struct FileHeader {
 };
 static_assert(sizeof(FileHeader) == 24);
 
-constexpr uint64_t kLargestFile = uint64_t{256} << 20;  // in bytes; this library's shaders take some 100 KB
+// largest size of a cache file that is read, in bytes; this library's shaders take some 100 KB
+constexpr uint64_t kLargestFile = uint64_t{256} << 20;
 
 FileHeader headerFor(std::span<const std::byte> data) {
   FileHeader header;
@@ -92,7 +93,8 @@ Result<void> PipelineCache::save() {
   const std::scoped_lock lock(saving_);
   const DeviceTable& calls = device_.calls();
   std::vector<std::byte> data;
-  // Repeats both calls if another thread has added to the cache between them.
+  // The first call asks for the size of the cache's data, the second one for the data. Both are repeated if another
+  // thread has added to the cache in between.
   VkResult result = VK_INCOMPLETE;
   while (result == VK_INCOMPLETE) {
     size_t bytes = 0;

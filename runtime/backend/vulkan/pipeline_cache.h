@@ -1,9 +1,9 @@
 #pragma once
 // The driver's compiled shaders, stored in a file from one run to the next.
 //
-// The file FOLDER/vulkan-VENDOR-DEVICE-DRIVER-CACHEID.cache, all little-endian: "SGMP", version (4 bytes each); size of
-// the driver's data, its XXH64 (8 bytes each); the driver's data. Some drivers crash on data of other devices, so a
-// file that is damaged or belongs to another device is ignored.
+// Layout of the file FOLDER/vulkan-VENDOR-DEVICE-DRIVER-CACHEID.cache, all little-endian: "SGMP", version (4 bytes
+// each); size of the driver's data, XXH64 of the data (8 bytes each); the driver's data. Some drivers crash on data of
+// other devices, so a file that is damaged or belongs to another device is ignored.
 
 #include <array>
 #include <filesystem>

@@ -22,8 +22,8 @@ struct PipelineDesc {
 
 inline constexpr uint32_t kMaxBuffers = 16;
 
-/// A shader's entry point "main" as a pipeline, with its layouts. The device must outlive it, and it must outlive the
-/// commands that use it.
+/// A compute pipeline with its layouts; the shader's entry point is "main". The device must outlive the pipeline, and
+/// the pipeline must outlive the commands that use it.
 class Pipeline {
  public:
   /// Creates a pipeline, which may take seconds for a large shader. cache may be null. Thread-safe. Errors:

@@ -76,8 +76,8 @@ void Queue::drain() const {
   info.semaphoreCount = 1;
   info.pSemaphores = &semaphore_;
   info.pValues = &last;
-  // Does not call wait(), which returns at once if the device is lost. Tries twice, since the driver may have been out
-  // of memory.
+  // Calls vkWaitSemaphores directly, since wait() returns at once if the device is lost. Tries twice, because the first
+  // call may fail if the driver is out of memory.
   const auto ended = [&] {
     return device_.calls().vkWaitSemaphores(device_.handle(), &info, UINT64_MAX) == VK_SUCCESS;
   };

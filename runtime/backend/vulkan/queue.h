@@ -9,10 +9,9 @@
 
 namespace sgm::vulkan {
 
-/// The device's queue. Its timeline semaphore gives submissions the values 1, 2, 3..., and they end in this order.
-/// Thread-safe. The device must outlive the queue.
-///
-/// After a call has returned device_lost, all later calls do: submitted work may never end, and its results are lost.
+/// The device's queue. Its timeline semaphore gives submissions the values 1, 2, 3..., and submissions end in this
+/// order. Thread-safe. The device must outlive the queue. Once a call has returned device_lost, all later calls return
+/// device_lost: submitted work may never end, and its results are lost.
 class Queue {
  public:
   /// Creates the queue. Errors: out_of_memory.

@@ -15,9 +15,9 @@ class Ranges {
   /// granule: a power of two; size: a multiple of it, not 0.
   Ranges(uint64_t size, uint64_t granule);
 
-  /// Returns the offset of a new range, in the lowest of the smallest gaps that are large enough; nullopt if there is
-  /// none. bytes: not 0. Takes time logarithmic in the number of ranges. Throws std::bad_alloc, without having changed
-  /// anything.
+  /// Returns the offset of a new range; nullopt if no gap is large enough. Takes the range from the smallest gap that
+  /// is large enough; among gaps of equal size, from the one at the lowest offset. bytes: not 0. Takes time logarithmic
+  /// in the number of ranges. Throws std::bad_alloc, without having changed anything.
   std::optional<uint64_t> take(uint64_t bytes);
   /// Frees a range that take() has returned.
   void give(uint64_t offset) noexcept;
@@ -28,7 +28,8 @@ class Ranges {
   using Gaps = std::set<std::pair<uint64_t, uint64_t>>;  // gaps, as pairs of size in bytes and offset
   struct Range {
     uint64_t bytes;
-    Gaps::node_type gap;  // node of gaps_, kept while the range is taken, so that freeing needs no memory
+    // the range's entry of gaps_, kept here while the range is taken, so that freeing it needs no memory
+    Gaps::node_type gap;
     bool taken() const { return !gap.empty(); }
   };
   uint64_t granule_;

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes that a device of another API writes into memory of the engine's Vulkan device, which draws them.
+// Meshes in the memory of the engine's Vulkan device, which draws them; a device of another API (CUDA) writes them.
 
 #include "backend/mesh_store.h"
 #include "backend/vulkan/device.h"

@@ -58,7 +58,8 @@ uint32_t wordsOf(const TapeScratch::Node& n, const uint32_t* params) {
   return parameterWords(n.weighs ? Op::kernel : static_cast<Op>(n.kind), params);
 }
 
-/// Returns how a mix or a morph, or the operand of a sum, is computed (record_header.h); 0 for all other instructions.
+/// For a mix, a morph or a sum, returns the bits kHow... (record_header.h), which tell how its result or its added
+/// value is computed; 0 for all other instructions.
 uint32_t howOf(const TapeScratch::Node& n) {
   using namespace record_header;
   return (n.by_constant ? kHowByConstant : 0) | (n.morphs ? kHowMorphs : 0) | (n.weighs ? kHowWeighs : 0);
@@ -71,7 +72,7 @@ uint64_t kindsOf(const TapeScratch::Node& n) {
   const bool joins = n.is(Op::mix) || n.is(Op::morph);
   const uint32_t others =
       (joins && !n.by_constant ? kSomeReadsThird : 0) | (n.morphs ? kSomeMorphs : 0) | (n.weighs ? kSomeWeighs : 0);
-  // On the device, pruning may turn the instruction into a copy.
+  // On the device, pruning may turn the instruction into a copy, so the tape's kinds include the copy.
   const bool may_copy = n.kind < static_cast<uint32_t>(Op::count) && shapeOf(static_cast<Op>(n.kind)).operands > 1;
   return uint64_t{1} << n.kind | uint64_t{others} << 32 |
          (may_copy ? uint64_t{1} << static_cast<uint32_t>(Op::copy) : 0);

@@ -12,9 +12,10 @@
 // Values are stored in slots; a slot is written once and read any number of times before it is reused. The folds of
 // groups (field/program.h) are instructions, too, and keep their order.
 //
-// Some operations are merged into other instructions (tape_fuse.h). In a union of primitives, each primitive takes the
-// minimum of its own value and of its operand, the union of the primitives before it (for the first one: kFarSlot). A
-// mix or morph includes its parameter, if that is constant. A sum includes the weight that it adds.
+// Some operations are merged into other instructions (tape_fuse.h). In a union of primitives, the operand of each
+// primitive is the union of the primitives before it (for the first primitive: kFarSlot); the primitive takes the
+// minimum of its own value and this operand. A mix or morph includes its parameter, if the parameter is constant. A sum
+// includes the weight that it adds.
 
 #include <cstdint>
 #include <memory_resource>
@@ -25,24 +26,25 @@
 namespace sgm {
 
 inline constexpr uint32_t kTapeSlots = 64;
-/// number of a slot that is never written and stands for a missing operand: farther than anything
+/// number of the slot that holds a constant, a distance greater than any other value. No instruction writes this slot;
+/// it stands for a missing operand.
 inline constexpr uint32_t kFarSlot = kTapeSlots;
 inline constexpr uint32_t kTapeRecordWords = 32;
 inline constexpr uint32_t kMaxTapeRecords = 1024;
 inline constexpr uint32_t kMaxTapeLayers = 64;
 
-/// Instructions that are not an Op, with numbers from Op::count on. They combine groups, layers and cuts
+/// The instructions that are not an Op; their numbers start at Op::count. They combine groups, layers and cuts
 /// (field/program.h).
 enum class TapeOp : uint32_t {
-  fold = static_cast<uint32_t>(
-      Op::count),  ///< adds a group to the field or to the cuts of its layer; or subtracts these cuts
-  smooth,          ///< blends a smooth group with the field
+  /// adds a group to the field, or to the cuts of its layer; at the end of a layer, subtracts these cuts from the field
+  fold = static_cast<uint32_t>(Op::count),
+  smooth,  ///< blends a smooth group with the field
   count
 };
 
 /// The place of a tape in a batch's words.
 struct Tape {
-  uint32_t headers = 0;  ///< offset in units of four words; one header per record
+  uint32_t headers = 0;  ///< offset of the headers in the batch's words, in units of four words; one header per record
   uint32_t records = 0;
   float initial = kFar;
   uint32_t initial_label = 0;
@@ -54,14 +56,15 @@ struct Tape {
 struct TapeScratch {
   struct Node {
     uint32_t kind = 0, place = 0, params = 0, group = 0, layer = 0, order = 0, stage = 0, step = 0;
-    bool ends_layer = false;   ///< for a fold without a group: it subtracts the layer's cuts from the field
-    bool layer_cuts = false;   ///< for ends_layer: true if the layer has cuts
+    bool ends_layer = false;   ///< for a fold without a group: true if it subtracts the layer's cuts from the field
+    bool layer_cuts = false;   ///< if ends_layer: true if the layer has cuts
     bool gone = false;         ///< true if the node was merged into the nodes that read it
     bool by_constant = false;  ///< for a mix or morph: its parameter is the constant `by`, not operand c
     bool morphs = false;       ///< for a sum: it adds the morph of a and c with the parameter `by`
-    bool weighs = false;       ///< for a sum: the kernel with these params weighs the added distance
+    bool weighs = false;       ///< for a sum: the node also applies the kernel with these params to the added distance
     float by = 0;
-    int32_t dst = -1, second = -1, a = -1, b = -1, c = -1;  ///< indices of values; -1: none
+    /// indices of the values that the node makes (dst, second) and reads (a, b, c); -1: none
+    int32_t dst = -1, second = -1, a = -1, b = -1, c = -1;
 
     bool is(Op op) const { return kind == static_cast<uint32_t>(op); }
   };

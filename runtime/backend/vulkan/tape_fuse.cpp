@@ -42,7 +42,7 @@ class Fuser {
     const int32_t maker = v < 0 ? -1 : values_[static_cast<size_t>(v)].maker;
     return maker >= 0 && nodes_[static_cast<size_t>(maker)].is(op) ? &nodes_[static_cast<size_t>(maker)] : nullptr;
   }
-  // True if the value is made once and read once: each of the two counts as a use.
+  // True if one node makes the value and one node reads it: `uses` counts both, so it is 2.
   bool readOnce(int32_t v) const { return values_[static_cast<size_t>(v)].uses == 2; }
 
   void takeConstant(Node& n) {
@@ -56,8 +56,9 @@ class Fuser {
     n.c = -1;
   }
 
-  /// Merges into a sum the kernel that makes its operand, and the morph that makes the kernel's operand. A sum usually
-  /// adds the weight of a distance; in grammars that morph, this is the distance to a morph of two shapes.
+  /// Merges up to two nodes into a sum: first the kernel that makes the sum's operand, then the morph that makes the
+  /// kernel's operand. A sum usually adds the kernel weight of a distance; in grammars with morphs, this is the
+  /// distance to a morph of two shapes.
   void takeOperand(Node& n) {
     Node* const kernel = makerOf(n.a, Op::kernel);
     if (kernel == nullptr || !readOnce(n.a)) return;
@@ -66,7 +67,8 @@ class Fuser {
     n.a = kernel->a;
     kernel->gone = true;
     Node* const morph = makerOf(n.a, Op::morph);
-    // A morph whose parameter is 0 or 1 is not merged: pruning then removes one of its two shapes, which saves more.
+    // Do not merge a morph whose parameter is the constant 0 or 1: pruning can then remove one of its two shapes, which
+    // saves more.
     if (morph == nullptr || !readOnce(n.a) || !morph->by_constant || !(morph->by > 0 && morph->by < 1)) return;
     n.morphs = true;
     n.by = morph->by;
@@ -82,8 +84,9 @@ class Fuser {
     return shape.position && shape.operands == 0;
   }
 
-  /// Merges a minimum into the shape just before it, as the shape's operand. Does not merge if other nodes read one of
-  /// the two operands, or if the shape would have to wait for another sweep.
+  /// Merges a minimum into the shape (primitive) just before it; the minimum's other operand becomes an operand of the
+  /// shape. Does not merge them if other nodes read one of the two operands, or if the shape would have to wait for
+  /// another sweep.
   void uniteShapes() {
     int32_t values = 0;
     size_t kept = 0;

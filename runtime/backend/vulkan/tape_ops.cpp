@@ -76,7 +76,7 @@ uint32_t parameterWords(Op op, const uint32_t* p) {
     case Op::prism:
       return 15 + 6 * p[14];
     case Op::lattice:
-      return 10;  // without the samples, which writeLattice() appends
+      return 10;  // number of words without the samples: writeLattice() appends these separately
     default:
       return shapeOf(op).position ? 21 : shapeOf(op).words;
   }

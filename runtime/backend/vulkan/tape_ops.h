@@ -1,6 +1,6 @@
 #pragma once
 // Properties of ops that tapes need: the number of operands, whether the op reads a position, the number of parameter
-// words, and its turn in a sweep.
+// words, and the op's turn in a sweep (when a shader runs it, relative to other ops).
 
 #include <cstdint>
 
@@ -18,7 +18,8 @@ struct OpShape {
 
 OpShape shapeOf(Op op);
 
-/// Returns the turn of a kind of instruction (an Op or a TapeOp) within a sweep.
+/// Returns the rank of a kind of instruction (an Op or a TapeOp) within a sweep: a shader runs kinds of lower rank
+/// first.
 uint32_t sweepRank(uint32_t kind);
 
 /// Returns the number of parameter words of an op. p: its parameters.

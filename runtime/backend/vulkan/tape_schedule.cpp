@@ -60,7 +60,7 @@ class Scheduler {
         end.ends_layer = true;
         end.group = k;
         end.layer = layers_++;
-        // In a layer, groups that cut follow groups that add, so the last group shows whether there are cuts.
+        // In a layer, groups that cut come after groups that add. So the layer has cuts exactly if its last group cuts.
         end.layer_cuts = g.cut;
         add(end);
       }
@@ -98,7 +98,7 @@ class Scheduler {
           break;
         case Op::warp:
           n.dst = -1;
-          n.group = in.dst;  // index of the place (warped position) that this warp makes
+          n.group = in.dst;  // index of the place (warped position) that the warp makes
           break;
         default:
           n.dst = registers_[in.dst] = newValue();
@@ -113,8 +113,9 @@ class Scheduler {
     nodes_.push_back(n);
   }
 
-  /// Divides the program into blocks, and sorts each block. Blocks are so short that their values certainly get slots.
-  /// A place (warped position) is made at most once in a block, and is not read in the block before that.
+  /// Divides the program into blocks, and sorts each block. Blocks are so short that there are certainly enough slots
+  /// for their values. In a block, at most one instruction makes a given place (warped position), and only instructions
+  /// after it read this place.
   void sortBlocks() {
     for (const Node& n : nodes_) TapeScratch::forEachValue(n, [&](size_t v) { values_[v].last = n.order; });
     for (size_t first = 0; first < nodes_.size();) {
@@ -139,7 +140,7 @@ class Scheduler {
       v.in_block = false;
       v.stage = v.rank = 0;
     }
-    // Counts the values that earlier blocks make and that this block or later ones read.
+    // Counts the values that earlier blocks compute and that are still read in this block or later.
     for (size_t v = 0; v < made_; ++v) values += values_[v].last >= begin ? size_t{1} : size_t{0};
     std::bitset<kMaxPlaces> touched;
     size_t i = first;
@@ -182,8 +183,8 @@ class Scheduler {
         fold_rank = rank;
       }
       if (warps) place_stage[n.group] = n.stage + 1;
-      // All ops that only join values have the same turn. Within that turn, `step` keeps equal kinds together, in the
-      // way that `stage` keeps equal turns together.
+      // `stage` orders all nodes by turn; ops that only join values all have the same turn. Within that turn, `step`
+      // orders them by kind. In both orders, a node comes after the nodes whose results it reads.
       n.step = 0;
       TapeScratch::forEachValue(n, [&](size_t v) {
         const TapeScratch::Value& read = values_[v];

@@ -11,14 +11,14 @@ namespace vulkan {
 namespace {
 
 /// Number of chunks per batch, on hardware and on software devices. A GPU needs large batches to fill its many
-/// invocations; on the few CPU threads of a software device, they would only make a batch take longer.
+/// invocations. A software device has only a few CPU threads, so a larger batch would only take longer.
 constexpr uint32_t kBatch = 64, kSoftwareBatch = 8;
 
 struct Slot final : DeviceSlot {
   explicit Slot(std::pmr::memory_resource* resource) : plan(resource) {}
   BatchPlan plan;
   BatchBuffers buffers;
-  uint64_t value = 0;  ///< timeline value of the queue until which the device works in the slot
+  uint64_t value = 0;  ///< the device uses the slot until the queue's timeline reaches this value
 };
 
 class Session final : public DeviceSession, public std::enable_shared_from_this<Session> {
@@ -63,8 +63,8 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
 
   Result<void> submit(DeviceSlot& base) override {
     auto& slot = static_cast<Slot&>(base);
-    // Downloads of the slot's previous batch must have ended. Waits again if read() gave up because the driver ran out
-    // of memory.
+    // Waits until the downloads of the slot's previous batch have ended. Usually read() has waited already, but it
+    // gives up if the driver runs out of memory.
     if (Result<void> brought = reach(slot.buffers.reading); !brought) {
       slot.stuck = true;
       return brought;
@@ -99,7 +99,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
       if (!done(job)) return false;
     }
     if (staying.empty()) return false;
-    // If this fails, the caller uploads the parts later, if it wants them on the device.
+    // After a failure, the caller uploads the parts later, provided that they are to be on the device.
     Result<KeptParts> kept = kept_->keep(shared_from_this(), sources);
     if (!kept) return kept.error();
     for (size_t i = 0; i < staying.size(); ++i) meshes[staying[i]].on_device = std::move(kept->chunks[i]);
@@ -162,8 +162,9 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
   std::unique_ptr<PipelineCache> cache_;  // null: pipelines are not cached
   std::unique_ptr<Kernels> kernels_;
   std::unique_ptr<Mesher> mesher_;
-  std::unique_ptr<Memory> kept_memory_;  // memory for meshes that stay; null if the device is not the engine's
-  std::unique_ptr<DeviceMeshes> kept_;   // null if the device is not the engine's
+  // memory for meshes that stay on the device; null if the device is not the engine's
+  std::unique_ptr<Memory> kept_memory_;
+  std::unique_ptr<DeviceMeshes> kept_;  // the meshes that stay on the device; null if the device is not the engine's
   IdleSlots slots_;
 };
 

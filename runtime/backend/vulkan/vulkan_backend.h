@@ -23,8 +23,9 @@ struct VulkanBackendOptions {
   BatchRoom room;
 };
 
-/// Creates a backend that meshes on a device, and on the given CPU backend if the device has no memory or is lost; the
-/// results are the same bytes. Errors: those of options.open, if the device cannot be opened at first.
+/// Creates a backend that meshes on a Vulkan device. The given CPU backend meshes the chunks for which the device has
+/// no memory, and the remaining chunks if the device is lost; its results are the same bytes. Errors: those of
+/// options.open, if the device cannot be opened at first.
 Result<std::unique_ptr<Backend>> makeVulkanBackend(const VulkanBackendOptions& options, std::unique_ptr<Backend> cpu,
                                                    std::pmr::memory_resource* memory, const Profiler& profiler);
 

@@ -28,7 +28,8 @@ enum OpenFlag : unsigned {
   kCreate = 4,     ///< create the file if it is missing
   kExclusive = 8,  ///< together with kCreate: fail with EEXIST if the file exists
   kNoFollow = 16,  ///< fail with ELOOP if the path is a symbolic link
-  kWait = 32,      ///< for pipes: wait until another process opens the other end; later reads wait for bytes
+  kWait = 32,      ///< if the file is a pipe: openFile() waits until another process opens the other end, and later
+                   ///< reads wait for bytes
 };
 
 /// Opens a file and returns its descriptor. flags: OpenFlag values combined by |. Without kWait the call never blocks.

@@ -122,7 +122,8 @@ int touchFile(const fs::path& path) { return ::utimensat(AT_FDCWD, path.c_str(),
 int openNamelessFile([[maybe_unused]] const fs::path& folder) {
 #ifdef O_TMPFILE
   const int file = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-  // nameFile() links the file through /proc, which is missing in some containers; in that case, report ENOTSUP.
+  // nameFile() will link the file through /proc, which some containers do not have. Without /proc, fail already here,
+  // with ENOTSUP.
   if (file < 0 || ::access(linkOf(file).c_str(), F_OK) == 0) return file;
   ::close(file);
 #endif
@@ -133,7 +134,8 @@ int openNamelessFile([[maybe_unused]] const fs::path& folder) {
 int openScratchFile(const fs::path& folder) {
 #ifdef O_TMPFILE
   const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC | O_EXCL, 0400);
-  // If O_TMPFILE fails, create a named file and remove its name at once. If the folder is the cause, this fails, too.
+  // If O_TMPFILE has failed, creates a named file and removes its name at once. If the cause is the folder (missing or
+  // not writable, say), creating the named file fails, too.
   if (file >= 0) return file;
 #endif
   std::string name = (folder / "sgm_scratch_XXXXXX").string();

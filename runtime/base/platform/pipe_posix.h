@@ -48,8 +48,8 @@ inline Result<Pipe> openPipe() {
   return clearOfStreams(ends);
 }
 
-/// Opens a socket pair instead of a pipe. With MSG_NOSIGNAL, writing after the reader has closed its end then is an
-/// error instead of the signal SIGPIPE.
+/// Opens a socket pair instead of a pipe. If the reader has closed its end, a write to a pipe raises SIGPIPE; a write
+/// to a socket with MSG_NOSIGNAL only returns an error.
 inline Result<Pipe> openSocket() {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return ioError("cannot open a socket");

@@ -10,8 +10,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Intervals at which to test whether the child has ended. Its streams alone do not tell, since the child's own child
-/// processes may keep them open.
+/// Intervals at which to test whether the child has ended. The end of its output streams does not show this reliably,
+/// since the child's own child processes may keep the streams open.
 constexpr std::chrono::milliseconds kBetweenLooks{50}, kBetweenLooksAtItsEnd{1};
 
 }  // namespace

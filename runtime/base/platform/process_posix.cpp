@@ -111,8 +111,8 @@ std::vector<char*> pointersTo(std::vector<std::string>& texts) {
   return pointers;
 }
 
-// Functions from here to Launch::becomeProgram neither lock nor allocate: after vfork() they run in a child that shares
-// this process's memory, where other threads may hold locks that would never be released.
+// Functions from here to Launch::becomeProgram neither lock nor allocate. After vfork() they run in a child that shares
+// this process's memory, while other threads of this process may hold locks or be changing the heap.
 
 /// Sets a resource limit that the process cannot raise again. beyond: how much the hard limit exceeds the soft limit,
 /// so that the soft limit's signal can end the process first.

@@ -27,7 +27,8 @@ struct Activation {
   uint32_t parent = kNone;
   uint32_t index = 0;  ///< index among the parent's activations of the same rule; part of the derivation path
   Placement start;     ///< the initial scope of the rule
-  /// ranges of overrides by path: the first `steps` steps of their paths lead to this activation
+  /// ranges of the overrides by path that may apply here or further below: the first `steps` steps of their paths lead
+  /// to this activation
   std::vector<PathRange> leads;
   uint32_t steps = 0;  ///< number of steps from the layer's start to this activation
   /// pairs of a rule and the number of its activations directly below this activation
@@ -52,8 +53,8 @@ class Activations {
 
   /// Returns the derivation path, such as "net(0, 0, -1)/Node/Chamber[0]"; empty for kNone.
   std::string pathText(uint32_t activation) const;
-  /// Returns the nearest enclosing activation that is not within an override's block: only such activations have a path
-  /// that can be overridden.
+  /// Returns the nearest enclosing activation that lies outside of all overrides' blocks. Only such an activation has a
+  /// path by which an override can address it.
   uint32_t outsideOfEdits(uint32_t activation) const;
 
  private:

@@ -24,8 +24,9 @@ class AssetCache {
  public:
   explicit AssetCache(const Program& program) : program_(program) {}
 
-  /// Returns an asset fitted to a size; fits it, and counts the steps in the budget, if it is not cached. number: index
-  /// in Program::assets. size: metres. The result is valid as long as the cache, and is empty if the budget has failed.
+  /// Returns an asset fitted to a size. If it is not cached, fits it now, and counts the steps of the work in the
+  /// budget. number: index in Program::assets. size: metres. The result is valid as long as the cache exists; it is
+  /// empty if the budget has failed.
   const FittedAsset& fit(uint32_t number, asset::Point size, const std::vector<asset::FitZone>& zones, const Span& span,
                          uint32_t activation, Budget& budget);
 

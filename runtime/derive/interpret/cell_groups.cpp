@@ -24,7 +24,8 @@ int64_t excess(const IntBox& box, const IntBox& limit) {
   return most;
 }
 
-/// True if a box counts as unbounded only because it reaches the end of the world, as the cell's limit does, too.
+/// True if every unbounded side of `box` lies at an end of the world that `limit` reaches too, on an axis along which
+/// the layer is divided into cells.
 bool endsWithWorld(const Layer& layer, const IntBox& limit, IntBox box) {
   const IntBox all = IntBox::everything();
   for (int a = 0; a < 3; ++a) {
@@ -52,13 +53,13 @@ void noteBeyond(uint32_t shape, const IntBox& box, CellContext& c) {
       origin.span, origin.activation);
 }
 
-/// Adds a group that is within the cell's limit, and clips it to the bounds that are proven for the layer
-/// (Layer::bound).
+/// Adds a group to the chunk, with its bounds clipped to the proven bounds of the layer (Layer::bound). Precondition:
+/// the group's bounds are within the cell's limit.
 void addGroup(Group group, CellContext& c, GrammarChunk& out) {
   const IntBox proven = shapeLimit(c.program, c.in.layer_index, c.in.cell);
   if (!proven.contains(group.bounds)) {
-    // A warp rounds positions to units. The bounds of a shape include a margin for that, but the proven bound does not,
-    // so a group may exceed it by one unit for each warp.
+    // A warp rounds positions to units. The bounds of a shape include a margin for this rounding, but the proven bound
+    // of the layer does not. So a group may exceed the proven bound by one unit for each warp.
     const std::pmr::vector<Shape>& shapes = c.draft.chunk().shapes;
     const auto warps =
         std::count_if(shapes.begin(), shapes.end(), [](const Shape& s) { return s.kind == ShapeKind::warp; });
@@ -70,8 +71,8 @@ void addGroup(Group group, CellContext& c, GrammarChunk& out) {
                         " m and ends there: a bug in the library, please report it",
                     origin.span, origin.activation);
     }
-    // A chunk loads only the cells whose proven bounds reach it, so parts beyond the proven bound would be visible in
-    // only some chunks.
+    // A mesh chunk loads only those cells whose proven bounds reach the chunk. Without clipping, parts beyond the
+    // proven bound would therefore be visible in some chunks and missing in others.
     group.bounds = group.bounds.clipped(proven);
   }
   if (!group.bounds.empty()) out.groups.push_back(group);

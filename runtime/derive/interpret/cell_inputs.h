@@ -31,7 +31,7 @@ struct CellInputs {
   const Int3 cell;
   const uint64_t seed;  ///< hash of the seeds of the world and the grammar
   Lattice lattice;
-  Int3 base;  ///< low corner of the cell, units
+  Int3 base;  ///< low corner of the cell, in units
 };
 
 }  // namespace sgm::interpret

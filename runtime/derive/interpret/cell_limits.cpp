@@ -7,8 +7,8 @@
 namespace sgm {
 namespace {
 
-/// Returns how far (units) the bounds of a shape may exceed its proven bound: ShapeBounds::level() includes a margin
-/// for float rounding, which depends on the size.
+/// Returns how far (units) the bounds of a shape may exceed its proven bound: ShapeBounds::level() adds a margin for
+/// float rounding, which grows with the size of the shape.
 int64_t roundingOf(const IntBox& bound) {
   const IntBox all = IntBox::everything();
   int64_t longest = 0;

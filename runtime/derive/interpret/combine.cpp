@@ -92,7 +92,7 @@ void runMeet(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) 
   for (uint32_t i = 0; i < body.children.count && !c.budget.failed(); ++i) {
     const StmtNode& child = c.program.stmt(c.program.idAt(body.children, i));
     if (c.program.stmt(c.program.innermost(c.program.idAt(body.children, i))).kind == StmtKind::cut) {
-      // A cut within a meet cuts from the intersection of the operands that precede the cut.
+      // A cut that is an operand of a meet cuts from the intersection of those operands that precede the cut.
       if (operands.size() > 1)
         operands = {c.sink.addShape(shapeIn(inner, ShapeKind::meet), child.ordinal, s.span, inner, operands)};
       runStatement(c.program.idAt(body.children, i), c, inner, operands);

@@ -40,8 +40,8 @@ IntBox cellBox(const Layer& layer, Int3 cell);
 /// extends exactly to the declared reach must be accepted.
 inline constexpr int32_t kReachSlack = 64;
 
-/// Returns the box within which shapes of the cell must lie: cellBox() grown by the reach and kReachSlack, unlimited
-/// along axes without cells. For a top-level start: the domain's box grown by kReachSlack.
+/// Returns the box within which the shapes of a cell must lie: cellBox() grown by the layer's reach and kReachSlack,
+/// unlimited along axes without cells. For a top-level start, it is the domain's box grown by kReachSlack.
 IntBox cellLimit(const Program& program, uint32_t layer, Int3 cell);
 
 /// The interval along one axis, in units, that may contain shapes of a layer's cell; both ends are included. It is
@@ -51,11 +51,12 @@ struct ShapeSpan {
   int64_t lo = 0, hi = 0;
 };
 
-/// Returns the interval of cellLimit() along an axis, which is the same for all cells.
+/// Returns the interval to which cellLimit() restricts shapes along an axis, relative to the origin that ShapeSpan
+/// describes. This interval is the same for all cells of the layer.
 ShapeSpan reachSpan(const Program& program, const Layer& layer, int axis);
 
-/// Returns the part of reachSpan() that lies within Layer::bound plus a margin for rounding, if that bound is proven
-/// (Layer::proven); otherwise the whole reachSpan().
+/// Returns the interval that shapes can really reach. If Layer::bound is proven (Layer::proven), it is the part of
+/// reachSpan() within that bound, plus a margin for rounding; otherwise, it is reachSpan().
 ShapeSpan shapeSpan(const Program& program, const Layer& layer, int axis);
 
 /// Returns the box that contains all groups of the cell: the interval shapeSpan() on each axis. Saturates at the ends
@@ -114,8 +115,8 @@ Result<TracedCell> traceCell(const Program& program, const ParameterValues& para
 struct RuleInstance {
   Int3 origin;          ///< origin of the rule's initial scope, units
   std::string path;     ///< derivation path, such as "net(0, 0, -1)/Node/Chamber[0]", in the format of overrides
-  bool bounded = true;  ///< false: some shape has no bound, and the chunk contains no groups
-  GrammarChunk chunk;   ///< shapes of the activation, and the anchors below its call that lie within the cell; no notes
+  bool bounded = true;  ///< false: some shape is unbounded; `chunk` then contains no groups
+  GrammarChunk chunk;   ///< shapes of the activation, and those of its anchors that lie within the cell; no notes
 };
 
 /// Like deriveCell(), but returns each activation of `rule` in the cell separately, in order of derivation: a nested

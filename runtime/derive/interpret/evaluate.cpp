@@ -256,7 +256,7 @@ Value Evaluator::evaluateCall(const ExprNode& node, const Env& env) {
 Value Evaluator::evaluateLet(const ExprNode& node, const Env& env) {
   const Let& let = program_.lets[node.id];
   std::vector<Value> slots(std::max(let.slot_count, let.formals.count));
-  // Random draws in a `let` depend on the path and the arguments, so that uses with different arguments are
+  // Random draws in a `let` depend on the path and on the values of its arguments, so draws for different arguments are
   // independent.
   uint64_t given = 0;
   for (uint32_t i = 0; i < let.formals.count; ++i) {

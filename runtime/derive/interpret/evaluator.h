@@ -18,7 +18,8 @@
 
 namespace sgm::interpret {
 
-/// Evaluates expressions. Stores the segments and plan pieces to which values refer, and the set of parameters read.
+/// Evaluates the expressions of a cell. Stores the segments and plan pieces to which values refer, and records which
+/// parameters were read.
 class Evaluator {
  public:
   Evaluator(const CellInputs& in, const Activations& activations, Draft& draft, Budget& budget)
@@ -28,7 +29,8 @@ class Evaluator {
   Value evaluate(ExprId id, const Env& env);
   double real(ExprId id, const Env& env) { return evaluate(id, env).real(); }
 
-  /// Returns the expression of a call's argument, by index into its bound arguments; kNoId if it is omitted.
+  /// Returns the expression of an argument of a call. index: position in the call's list of bound arguments. kNoId if
+  /// the argument is omitted.
   ExprId boundAt(const ExprNode& node, uint32_t index) const;
   /// Returns a key for random draws that depends only on this value.
   PathKey keyOf(const Value& value) const;

@@ -53,8 +53,8 @@ Frame frameOn(const Placement& place) {
         const Vec3 off{from_base.x - kUnitsOfMetre * cell.x, from_base.y - kUnitsOfMetre * cell.y,
                        from_base.z - kUnitsOfMetre * cell.z};
         const double away = std::fabs(dot(off, out));
-        // A candidate must be nearer by more than the rounding error, so that rounding never decides between
-        // candidates.
+        // A candidate replaces the nearest one so far only if it is nearer by more than the rounding error. So rounding
+        // never decides between equally near candidates.
         if (away >= least - 1e-6) continue;
         least = away;
         frame.origin = candidate;

@@ -11,7 +11,7 @@
 
 namespace sgm::interpret {
 
-/// Caches the floor plans of one cell, the most expensive part of treemaps.
+/// Caches the floor plans of one cell. Laying out floor plans is the most expensive part of treemaps.
 class FloorPlanCache {
  public:
   /// Returns the result of layOutFloor() for these inputs, from the cache if possible. Counts steps in the budget; if

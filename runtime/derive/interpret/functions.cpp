@@ -16,8 +16,8 @@ bool isMethod(Builtin id) {
   return id == Builtin::cell_point || id == Builtin::cell_links || id == Builtin::face_point;
 }
 
-/// Whether detSin and detCos support the angle. The proof of reach relies on sines and cosines between -1 and 1 for any
-/// number.
+/// Whether the angle is in the range of detSin and detCos; for other angles the functions of the language return 0. So
+/// sines and cosines lie between -1 and 1 for any number, as the proof of reach requires.
 bool isAngle(double radians) { return std::fabs(radians) <= 1e6; }
 
 }  // namespace

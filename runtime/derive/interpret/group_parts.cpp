@@ -48,8 +48,8 @@ class PartSearch {
 
   IntBox bounds(const Shown& at) const { return at.shows[root_] ? levelBounds(at.chunk, root_, 0) : IntBox{}; }
 
-  /// Returns the index of the coarsest level, from index `from` on, at which the group exceeds the limit; bisects,
-  /// since finer levels show more.
+  /// Returns the index in levels_ of the coarsest level, not before `from`, at which the group exceeds the limit. The
+  /// search is a bisection: finer levels show more, so the group exceeds the limit at all finer levels, too.
   size_t firstBeyond(size_t from) {
     size_t end = levels_.size();
     while (from < end && !refused_) {

@@ -1,5 +1,6 @@
 #pragma once
-// Trims a group that exceeds its cell's limit, if some of its parts are visible only at some levels.
+// If a group of shapes exceeds its cell's limit, and some of its parts are visible only at some levels, removes parts
+// of the group until the rest is within the limit.
 
 #include <functional>
 #include <optional>
@@ -22,12 +23,10 @@ struct GroupParts {
   std::vector<LeftOutPart> left_out;
 };
 
-/// Removes parts until the bounds of the rest are within `limit`. Parts are removed level by level, from coarse to
-/// fine, so that a derivation for coarse levels only gives the same result as the complete one, although it does not
-/// derive parts that are invisible at these levels.
-///
-/// group: a chunk that contains only that group. step: called with the amount of work before each step; if it returns
-/// false, the function returns nullopt.
+/// Removes parts of a group until the bounds of the rest are within `limit`. Removes them level by level, from coarse
+/// to fine. So a derivation for coarse levels only, which does not derive parts that are invisible there, removes the
+/// same parts at these levels as a complete derivation. group: a chunk that contains only that group. step: called with
+/// the amount of work before each step; if it returns false, the function returns nullopt.
 std::optional<GroupParts> partsWithin(const GrammarChunk& group, const IntBox& limit,
                                       const std::function<bool(uint64_t)>& step);
 

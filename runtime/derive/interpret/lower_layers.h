@@ -23,14 +23,14 @@ struct Ball {
   int32_t radius = 0;
 };
 
-/// number of times that the ball's box is halved along each axis: up to 64 pieces along each axis
+/// maximum number of times that the ball's box is halved along each axis, which gives up to 64 pieces along each axis
 inline constexpr int kBallHalvings = 6;
-/// maximum number of pieces to visit; if a ball needs more, nothing is proven
+/// maximum number of pieces of the ball's box that a proof visits; if it needs more, nothing is proven
 inline constexpr uint32_t kMaxBallPieces = 4096;
 
 struct BallProof {
   bool holds = false;
-  uint32_t pieces = 0;  ///< number of pieces visited, as a measure of the work
+  uint32_t pieces = 0;  ///< number of pieces of the ball's box that the proof visited, as a measure of the work
 };
 
 /// Tries to prove that all positions in the ball are `wanted`. Subdivides the ball's box, halving each axis, until
@@ -53,7 +53,8 @@ class LowerLayers {
   virtual std::optional<int32_t> probe(uint32_t layer, Int3 from, std::array<double, 3> direction,
                                        int32_t length) const;
 
-  /// Runs proveBall() on solid(). The default implementation only classifies boxes of one position.
+  /// Calls proveBall() with the answers of solid() for `layer`. The default implementation classifies only boxes of one
+  /// position: for a larger box its answer is `unknown`.
   virtual BallProof prove(uint32_t layer, const Ball& ball, BoxContent wanted) const;
 };
 

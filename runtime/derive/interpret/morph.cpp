@@ -14,7 +14,7 @@ namespace {
 struct Squared {
   std::array<double, 3> radii{};
   double square = 0;
-  bool turns = true;  ///< true if the orientation of the axes matters; false for a sphere
+  bool turns = true;  ///< true if a rotation changes the shape; false for a sphere
 };
 
 /// Describes a sphere, an ellipsoid, a box or a superquadric as a superquadric.
@@ -44,8 +44,8 @@ void morphByPower(const StmtNode& s, CellContext& c, const Env& env, uint32_t a,
     out.push_back(c.sink.addShape(node, s.ordinal, s.span, env));
     return;
   }
-  // A morph_power shape always runs from squareness 0 to 1. If the two shapes have squarenesses in between, radii and t
-  // are extrapolated linearly to that range.
+  // The shape kind morph_power always runs from squareness 0 to squareness 1. If the two shapes have squarenesses
+  // within this range, their radii and t are extrapolated linearly to its ends.
   node.kind = ShapeKind::morph_power;
   const double step = to.square - from.square;
   for (size_t i = 0; i < 3; ++i) {
@@ -75,8 +75,8 @@ double exponentOfSquare(double square) {
 
 void runMorph(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   const StmtId from = c.program.idAt(s.children, 0), to = c.program.idAt(s.children, 1);
-  // A t that is evaluated per sample may use `u` along the morphed shapes, so it is evaluated after both shapes are
-  // derived.
+  // A parameter t that is known only at sample time may use `u`, the coordinate along the morphed shapes. So t is
+  // evaluated after both shapes are derived.
   const bool sampled = c.program.expr(s.expr).type.sample;
   Num t = sampled ? Num{} : c.evaluator.evaluate(s.expr, env).n[0];
   if (!sampled && !(t.value > 0)) return runStatement(from, c, env, out);

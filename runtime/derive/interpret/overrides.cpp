@@ -74,16 +74,16 @@ void runUnderEdits(const UnderEdit& what, size_t below, CellContext& c, Env& env
 void runInner(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   if (env.under == nullptr) return;
   const UnderEdit& what = *env.under;
-  // Derives the replaced content as without the override, except for the position, labels and levels of this `inner`
-  // statement.
+  // Derives the replaced content as if there were no override. However, its position, labels and levels are those of
+  // this `inner` statement.
   Env below = env;
   below.activation = what.env->activation;
   below.slots = what.env->slots;
   below.under = what.env->under;
   below.within = what.env->within;
   below.top = env.top && s.layer_level;
-  // The first `inner` keeps the key of the replaced content, so that its result is bitwise identical; further `inner`
-  // statements get keys of their own.
+  // The first `inner` in an override keeps the key of the replaced content, so that it derives bitwise identical
+  // content; further `inner` statements get keys of their own.
   below.key = env.key == what.own_key && s.extra == 0 ? what.env->key : env.key.child(what.env->key.value, s.ordinal);
   if (env.forced_material == 0) below.forced_material = env.written_material;
   if (env.forced_tag == 0) below.forced_tag = env.written_tag;

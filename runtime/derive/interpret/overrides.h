@@ -9,10 +9,11 @@
 
 namespace sgm::interpret {
 
-/// Derives the target with only the first `below` of its overrides applied; the last of these is the outermost.
+/// Derives the content that overrides replace (the target, see UnderEdit) with only the first `below` of these
+/// overrides applied. The last one applied is the outermost.
 void runUnderEdits(const UnderEdit& what, size_t below, CellContext& c, Env& env, ShapeList& out);
 
-/// Derives a block, or the meet or extrusion that contains it, with the overrides of its tag applied. room:
+/// Derives a block, or the meet or extrusion that contains it, with the overrides of its tag applied. room: see
 /// UnderEdit::room.
 void runTagged(const StmtNode& s, uint16_t tag, CellContext& c, const Env& env, ShapeList& out, bool room = false);
 

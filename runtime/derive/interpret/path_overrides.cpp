@@ -75,7 +75,7 @@ void PathOverrides::noteMissed(Budget& budget) const {
     }
     if (last == kNone) continue;
     const PathStep& step = in_.program.path_steps[edit.steps.first + known];
-    // If several activations match the prefix, report the one below which the next rule of the path is used most often.
+    // If several activations match the prefix, report the activation that uses the next rule of the path most often.
     std::vector<uint32_t> uses(activations_.count(), 0);
     uint32_t count = 0;
     for (uint32_t i = 0; i < activations_.count(); ++i) {

@@ -17,7 +17,7 @@ class PathOverrides {
 
   bool isEmpty() const { return all_.empty(); }
 
-  /// Advances the paths of overrides into a new activation of a rule. Returns the overrides whose path ends at this
+  /// Follows the paths of the overrides into a new activation of a rule. Returns the overrides whose path ends at this
   /// activation, in the order of Program::overrides.
   std::vector<uint32_t> enter(uint32_t activation);
 

@@ -46,8 +46,8 @@ void transform(IdRange xforms, CellContext& c, Env& env) {
         if (whole) {
           env.scope = first.vec();
         } else {
-          // All edges are evaluated in the scope before the statement, so that `size(scope.z, scope.y, scope.x)` swaps
-          // two edges.
+          // All edges are evaluated before any of them is replaced, so that `size(scope.z, scope.y, scope.x)` swaps two
+          // edges.
           Vec3 edges = env.scope;
           if (x.a != kNoId) edges.x = first.real();
           if (x.b != kNoId) edges.y = part(x.b);
@@ -92,14 +92,16 @@ void runForEach(const StmtNode& s, CellContext& c, const Env& env, ShapeList& ou
     return !c.budget.failed() && c.budget.step(1, s.span, env.activation);
   };
   if (list.kind == ValueKind::faces) {
-    // Each copy is keyed by its face, so that a face that opens or closes does not change the content at other faces.
+    // The key of each copy depends only on the face at which the copy is placed. So if another face opens or closes,
+    // the copy at this face stays the same.
     for (const FaceId& face : list.faces) {
       if (!body(Value::ofFace(face), c.in.lattice.faceKey(face).value)) return;
     }
     return;
   }
   if (list.kind == ValueKind::segments) {
-    // Each copy is keyed by its segment, so that its shapes do not depend on other segments.
+    // The key of each copy depends only on the segment at which the copy is placed. So if other segments change, the
+    // shapes of this copy stay the same.
     for (uint32_t i = list.first; i < list.first + list.count; ++i) {
       if (!body(Value::ofSegment(i), c.evaluator.segment(i).key.value)) return;
     }

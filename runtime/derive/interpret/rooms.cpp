@@ -54,8 +54,8 @@ void addBox(const PlanRect& r, double y, double height, const StmtNode& s, CellC
   out.push_back(c.sink.addShape(shape, s.ordinal, s.span, env));
 }
 
-/// Derives a room or a corridor: boxes that fill its open space, to which the part's block adds shapes and from which
-/// it cuts. clear: rectangles of the open space; the first one is the block's scope.
+/// Derives a room or a corridor: first boxes that fill its open space; then the statements of its block add shapes to
+/// these boxes and cut from them. clear: rectangles of the open space; the first one is the block's scope.
 void runRoom(const StmtNode& s, uint32_t index, std::span<const PlanRect> clear, PathKey key, CellContext& c,
              const Env& env, ShapeList& out) {
   if (!c.budget.step(1, s.span, env.activation)) return;
@@ -130,8 +130,8 @@ void runTreemap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& ou
   sizes.x = static_cast<int32_t>(edges.x * kUnitsPerMetre);
   sizes.z = static_cast<int32_t>(edges.z * kUnitsPerMetre);
 
-  // rooms: index of the part of each room that is laid out; number: for each room of the statement, in order, its index
-  // in `rooms`; kNone if the room is left out because of its size
+  // rooms: for each room that is laid out, its index in `parts`. number: for each room of the statement, in order, its
+  // index in `rooms`; kNone if the room is left out because of its size.
   std::vector<uint32_t> rooms, number(s.parts.count, kNone);
   std::vector<double> areas;
   for (uint32_t i = 0, room = 0; i < s.parts.count; ++i) {
@@ -151,7 +151,7 @@ void runTreemap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& ou
   }
   std::vector<RoomLink> links;
   std::vector<double> heights;
-  std::vector<uint32_t> doors;  // index of the part of each link
+  std::vector<uint32_t> doors;  // for each element of `links`: index in `parts` of the link that requests the door
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     if (parts[i].floor != FloorPart::link) continue;
     const LinkNode& link = c.program.ast.links[c.program.stmt(c.program.idAt(s.children, i)).extra];

@@ -171,8 +171,8 @@ void RuleRunner::derive(const Rule& rule, const Alternative& chosen, Env& env, s
     }
   }
   const Nested active(active_[index]);
-  // A morphic rule must produce exactly one shape, so several shapes are united. Other rules keep all shapes of their
-  // block.
+  // A morphic rule must produce exactly one shape, so if its body has several shapes, they are united into one. Other
+  // rules keep all shapes of their block.
   const size_t first = out.size();
   runStatement(chosen.body, c_, inner, out);
   if (rule.morphic && out.size() > first + 1) {

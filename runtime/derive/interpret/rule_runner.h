@@ -20,8 +20,9 @@ class RuleRunner {
 
   /// Derives a call of a rule with its overrides, and appends its shapes to `out`. node: the call.
   void call(uint32_t rule, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
-  /// Derives an activation of a rule, without its overrides: one of the alternatives without `lod` for the finest
-  /// levels, and one alternative for each range of coarser levels that begins at the cell edge of a `lod`.
+  /// Derives an activation of a rule, without its overrides. For the finest levels, derives one of the alternatives
+  /// without `lod`. The cell edge of each `lod` begins a range of coarser levels; for each range, derives one of the
+  /// alternatives with this `lod`.
   void runAlternatives(const Rule& rule, Env env, std::vector<Value>& arguments, ShapeList& out);
 
  private:

@@ -63,8 +63,8 @@ void scatterPoint(const StmtNode& s, CellContext& c, const Env& at, ProbedPoints
   const ScatterNode& node = c.program.ast.scatters[s.extra];
   if (!c.budget.step(1, s.span, at.activation)) return;
   const auto wanted = [&] { return node.when == kNoId || c.evaluator.evaluate(node.when, at).truth(); };
-  // Probes are expensive, so the condition is evaluated first, unless it may use the gap: the free distance that the
-  // probe measures.
+  // Probes are expensive, so the condition is evaluated before the probe, unless it may use the gap: the free distance
+  // that the probe measures.
   const bool asks_gap = node.gap != kNoId;
   if (!asks_gap && !wanted()) return;
   Env moved = at;
@@ -92,7 +92,8 @@ void scatterPoints(const StmtNode& s, CellContext& c, const Env& env, ProbedPoin
       c.budget.note("the distance between points must be positive; there are no points", s.span, env.activation);
       return;
     }
-    // All candidates are in memory at once, so their number is limited before they are allocated.
+    // All candidates are in memory at once, so their number is limited before they are allocated. kCandidate is the
+    // assumed size of a candidate in bytes.
     constexpr size_t kCandidate = 64;
     const size_t most = std::min<size_t>(c.budget.stepsLeft(), c.in.limits.bytes / kCandidate);
     const auto points = poissonInCell(c.in.lattice, c.in.cell, set, toUnits(amount), most);

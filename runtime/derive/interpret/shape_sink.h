@@ -21,15 +21,15 @@ class ShapeSink {
  public:
   ShapeSink(const CellInputs& in, Draft& draft, Budget& budget) : limits_(in.limits), draft_(draft), budget_(budget) {}
 
-  /// Adds a shape, and returns its index in the draft. Fails the cell if it has too many shapes or uses too much
-  /// memory. A shape with inner_radius 0 gets the inner radius of its children. ordinal: ordinal of the statement or
-  /// expression, part of the shape's key.
+  /// Adds a shape, and returns its index in the draft. If the cell has too many shapes or uses too much memory, the
+  /// derivation of the cell fails. A shape with inner_radius 0 gets the inner radius of its children. ordinal: ordinal
+  /// of the statement or expression, part of the shape's key.
   uint32_t addShape(Shape s, uint32_t ordinal, const Span& span, const Env& env, const ShapeList& children = {});
   /// Returns one shape for a non-empty list: its only element, or a hard union of all elements.
   uint32_t unite(const ShapeList& list, const StmtNode& s, const Env& env);
 
-  /// Restricts the shapes of a list, from index `from` on, to levels with cell edges from `coarsest` to `detail` units;
-  /// 0: no limit.
+  /// Restricts the shapes of a list, from index `from` on, to levels whose cell edge is at least `coarsest` and at most
+  /// `detail` units; 0: no limit.
   void limitLevels(ShapeList& list, size_t from, int32_t coarsest, int32_t detail);
 
   /// Returns the indices, in the draft, of the shapes that cut the layer's domain.

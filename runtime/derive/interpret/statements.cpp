@@ -118,10 +118,11 @@ void runStatement(StmtId id, CellContext& c, const Env& env, ShapeList& out) {
     case StmtKind::inner:
       runInner(s, c, env, out);
       break;
-    case StmtKind::field:  // The value is evaluated where its name is used.
-    case StmtKind::mat:    // The checker has already stored the material or tag in the enclosing block.
+    case StmtKind::field:  // Nothing to do here: the value is evaluated where its name is used.
+    // Nothing to do here: the checker has already stored the material or tag in the enclosing block.
+    case StmtKind::mat:
     case StmtKind::tag:
-    case StmtKind::link:  // The enclosing treemap evaluates its links.
+    case StmtKind::link:  // Nothing to do here: the enclosing treemap evaluates its links.
     case StmtKind::border:
       break;
   }

@@ -9,7 +9,8 @@
 
 namespace sgm::interpret {
 
-// Defined in statements.cpp:
+// The following functions are defined in statements.cpp.
+
 /// Derives any statement, with the overrides of its tag; does nothing for kNoId.
 void runStatement(StmtId id, CellContext& c, const Env& env, ShapeList& out);
 /// Derives a call of a rule or a primitive.
@@ -21,7 +22,7 @@ void runDetail(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out
 /// Sets the environment's material and tag to those of a block.
 void label(const StmtNode& block, Env& env);
 
-// Defined in combine.cpp and morph.cpp:
+// The following functions are defined in combine.cpp and morph.cpp.
 void runUnite(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runCut(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runMeet(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
@@ -30,14 +31,14 @@ void runDisplace(const StmtNode& s, CellContext& c, const Env& env, ShapeList& o
 void runWarp(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runMorph(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 
-// Defined in placement.cpp and scatter.cpp:
+// The following functions are defined in placement.cpp and scatter.cpp.
 void runTransform(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runRepeat(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runForEach(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runAnchor(const StmtNode& s, CellContext& c, const Env& env);
 void runScatter(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 
-// Defined in split.cpp:
+// The following functions are defined in split.cpp.
 void runSplit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runSnap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runComp(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
@@ -46,12 +47,12 @@ void runComp(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runPart(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope, CellContext& c,
              const Env& env, ShapeList& out);
 
-// Defined in rooms.cpp, tiles.cpp and fit.cpp:
+// The following functions are defined in rooms.cpp, tiles.cpp and fit.cpp.
 void runTreemap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runWfc(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runFit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 
-// Defined in profiles.cpp:
+// The following functions are defined in profiles.cpp.
 void runFootprint(const StmtNode& s, CellContext& c, const Env& env);
 void runExtrude(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runRoof(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);

@@ -18,8 +18,8 @@
 namespace sgm::interpret {
 namespace {
 
-/// All tiles of a wfc in all their orientations. stands: for each of `tiles`, the index of its part and its rotation
-/// about y in quarter turns.
+/// All tiles of a wfc in all their orientations. stands: for each element of `tiles`, the index of the wfc's part that
+/// it comes from, and its rotation about y in quarter turns.
 struct StandingTiles {
   struct Stand {
     uint32_t part;
@@ -33,8 +33,8 @@ struct StandingTiles {
 constexpr double kFullWeight = 1 << 20;
 /// A search for tiles may make at most kMaxVisits * (places + kMaxVisits) visits of places.
 constexpr uint64_t kMaxVisits = 128;
-/// A search may also make at most 1 / kSearchShare as many visits as DeriveLimits::steps. kVisitsOfStep units of its
-/// work count as one step of the cell.
+/// The visits of a search are also limited to 1 / kSearchShare of DeriveLimits::steps. kVisitsOfStep units of the
+/// search's work count as one step of the cell.
 constexpr uint64_t kSearchShare = 8, kVisitsOfStep = 16;
 
 /// The interval along an edge of the scope that one place of the lattice occupies, in metres. It overlaps the intervals
@@ -49,8 +49,8 @@ Stretch stretchOf(double edge, uint32_t count, uint32_t at) {
   return {at == 0 ? from : from + at * step - over, at + 1 == count ? 0.5 * edge : from + (at + 1) * step + over};
 }
 
-/// True if a side is front, right or top. collapseWave() matches sides that have a label in common: a high side gets
-/// its own kind as its only label, a low side gets all kinds that match it.
+/// True if a side is a high side: front, right or top. collapseWave() lets two sides touch if they have a label in
+/// common. So a high side gets its own kind as its only label; a low side gets all kinds that match its kind.
 constexpr bool isHigh(size_t side) { return side < 2 || side == 4; }
 
 std::span<const SideKind> sideKinds(const Program& program, const StmtNode& s) {
@@ -90,7 +90,7 @@ void noteNoTiles(const StmtNode& s, const StandingTiles& standing, const WaveLat
       for (size_t k = 0; k < kinds.size(); ++k)
         if ((result.wanted[side] >> k & 1) != 0) fit |= kindsThatFit(kinds, k);
     }
-    // A side that matches every tile does not explain the failure.
+    // Skips a side at which every tile matches: such a side does not explain the failure.
     if (std::all_of(standing.tiles.begin(), standing.tiles.end(),
                     [&](const WaveTile& tile) { return (tile.sides[side] & result.wanted[side]) != 0; }))
       continue;
@@ -141,8 +141,8 @@ bool waveLattice(const StmtNode& s, CellContext& c, const Env& env, WaveLattice&
   const std::span<const SideKind> kinds = sideKinds(c.program, s);
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     const PartNode& part = c.program.ast.parts[s.parts.first + i];
-    // The labels of a border are those of imaginary tiles outside of the lattice: the front of the lattice touches the
-    // back side of such a tile, and so on.
+    // The labels of a border are those of imaginary tiles just outside the lattice. Each such tile touches the lattice
+    // with its opposite side: at the front border, the tile's back side touches the lattice.
     for (size_t side = 0; part.label == kNoId && side < kWaveSides; ++side)
       lattice.border[side] = sideLabels(kinds, c.program.ast.tiles[part.tile].sides[side], !isHigh(side));
   }
@@ -201,8 +201,8 @@ void runWfc(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   const uint64_t most = std::min(kMaxVisits * (places + kMaxVisits), c.in.limits.steps / kSearchShare);
   const PathKey key = env.key.child(kWaveSalt + s.ordinal, 0);
   const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most, c.in.limits.bytes);
-  // A unit of work counts as only a fraction of a step, so that even a hundred scopes whose searches find no tiles
-  // rarely exceed the limit of steps, which would fail the whole cell.
+  // A unit of work counts as only a fraction of a step. So a cell rarely exceeds its limit of steps, even if a hundred
+  // of its scopes search for tiles in vain. (A cell that exceeds the limit fails completely.)
   if (!c.budget.step(result.work / kVisitsOfStep, s.span, env.activation)) return;
   if (result.end != WaveEnd::solved) return noteNoTiles(s, standing, lattice, result, c, env);
   uint64_t number = 0;

@@ -22,7 +22,7 @@ struct Value {
   Int3 cell;
   int axis = 0;
   std::vector<FaceId> faces;
-  uint32_t first = 0, count = 0;  ///< range of indices in the evaluator's list of segments or of plan pieces
+  uint32_t first = 0, count = 0;  ///< range of indices in the evaluator's list of segments, or of plan pieces
 
   static Value number(Num v) {
     Value result;

@@ -7,7 +7,7 @@
 namespace sgm {
 namespace {
 
-using Counts = std::vector<uint16_t>;  // number of solid voxels in a neighbourhood, at most 31^3
+using Counts = std::vector<uint16_t>;  // for each voxel: the number of solid voxels in its neighbourhood, at most 31^3
 
 size_t countAlong(const VoxelBox& box, int axis) { return static_cast<size_t>(box.count[axis]); }
 
@@ -36,8 +36,8 @@ Counts filled(const Automaton& automaton, const VoxelBox& box) {
   return out;
 }
 
-/// Returns the sum of 2 * radius + 1 neighbours along an axis for each voxel. The box loses `radius` voxels at both
-/// ends, where not all neighbours are known.
+/// Returns for each voxel the sum over 2 * radius + 1 voxels along an axis: the voxel itself and its neighbours on both
+/// sides. The box loses `radius` voxels at both ends, where not all neighbours are known.
 Counts summed(const Counts& in, VoxelBox& box, int axis, int32_t radius) {
   size_t inner = 1, outer = 1;
   for (int a = 0; a < axis; ++a) inner *= countAlong(box, a);

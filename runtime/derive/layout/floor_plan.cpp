@@ -83,8 +83,8 @@ class FloorLayout {
     return out;
   }
 
-  /// Adds corridor strips along walls. Where two corridor walls meet, their strips overlap; at a free end, a strip
-  /// stops at the face of the wall that it runs into.
+  /// Adds corridor strips along walls. Where two such walls meet, their strips overlap. At a free end, where no further
+  /// such wall follows, the strip stops at the face of the wall that crosses its way.
   void corridor(const std::vector<bool>& walls, Carving& out) const {
     std::vector<int> degree(graph_.corners.size(), 0);
     for (size_t e = 0; e < walls.size(); ++e) {
@@ -206,8 +206,8 @@ class FloorLayout {
     return out;
   }
 
-  /// Returns a bit set for each corner of the graph: the rooms that touch the corner, and the rooms that links may
-  /// reach from these.
+  /// Returns, for each corner of the wall graph, a bit set of rooms: the rooms that touch the corner, and all rooms
+  /// that are joined to these by the links of the treemap, directly or through other rooms.
   std::vector<uint64_t> roomsNearCorners() const {
     std::vector<uint64_t> beyond(cells_.size());
     for (size_t room = 0; room < beyond.size(); ++room) beyond[room] = uint64_t{1} << room;
@@ -233,8 +233,8 @@ class FloorLayout {
   };
 
   /// Extends the corridor by the path that reaches the largest number of further rooms per length. Prefers paths that
-  /// keep all doors requested by links. If there is none, it accepts the loss of such a door, since without a corridor,
-  /// rooms would be reached only through other rooms.
+  /// keep all doors requested by links. If every path removes such a door, accepts that: without a corridor, rooms
+  /// could be reached only through other rooms.
   bool extend(std::vector<bool>& walls, Carving& carving, Access& access) {
     Best keeping, any;
     const size_t corners = graph_.corners.size();
@@ -264,7 +264,7 @@ class FloorLayout {
     return true;
   }
 
-  /// Returns the stretches of a room's outer walls behind which the room is open space.
+  /// Returns the stretches of the building's outer walls that adjoin the open space of a room.
   std::vector<PlanFacade> facadesOf(const Carving& carving, size_t room) const {
     const PlanRect inner = grown(middle_, -sizes_.wall / 2);
     std::vector<PlanFacade> out;
@@ -301,7 +301,7 @@ class FloorLayout {
       const PlanRect hole = f.side % 2 == 0 ? PlanRect{low, std::min(a, b), high, std::max(a, b)}
                                             : PlanRect{std::min(a, b), low, std::max(a, b), high};
       plan.doors.push_back({hole, PlanDoor::kOutside, f.room, PlanDoor::kNoLink});
-      // The entrance splits the facade into the stretches on both of its sides.
+      // The entrance splits its facade into two: the stretches on both sides of the entrance.
       plan.facades[i].high = low - sizes_.wall;
       plan.facades.insert(plan.facades.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                           {f.room, f.side, high + sizes_.wall, f.high});

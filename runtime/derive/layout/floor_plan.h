@@ -1,8 +1,8 @@
 #pragma once
 // Floor plans: labelled rooms by a treemap, doors, and a corridor to rooms without a door. After Marson and Musse,
 // Automatic Real-Time Generation of Floor Plans Based on Squarified Treemaps Algorithm, Int. J. of Computer Games
-// Technology 2010, 624817: rooms by squarified treemap, doors between rooms that may be connected, and a shortest path
-// along inner walls to the rooms without access, which becomes the corridor.
+// Technology 2010, 624817: rooms by squarified treemap, doors between rooms that may be connected, and a corridor,
+// which is a shortest path along inner walls to the rooms without access.
 
 #include <cstdint>
 #include <span>

@@ -16,9 +16,9 @@ size_t linksMet(std::span<const PlanRect> rooms, std::span<const RoomLink> links
   }));
 }
 
-/// Returns variants of a treemap's row: its parts in other orders, and the row at the other end of the space that
-/// previous rows have left. The first row, with the largest rooms, is not moved, since the entrance is in front. first:
-/// whether the row is the first one.
+/// Returns the variants of a treemap's row: other orders of its parts, and the row moved to the other end of the space
+/// that previous rows have left. The first row, with the largest rooms, is not moved, since the entrance is in front.
+/// first: whether the row is the first one.
 std::vector<TreemapRow> choicesOf(const TreemapRow& row, bool first) {
   std::vector<TreemapRow> out{row};
   TreemapRow other = row;

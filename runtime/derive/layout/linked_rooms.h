@@ -1,5 +1,5 @@
 #pragma once
-// Arranges the rooms of a treemap so that rooms that a door shall connect share a wall.
+// Arranges the rooms of a treemap. Two rooms that are to be connected by a door get a common wall, if possible.
 
 #include <cstdint>
 #include <span>

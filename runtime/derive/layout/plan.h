@@ -30,8 +30,8 @@ PlanPiece rectPiece(double x, double z);
 PlanPiece regularPiece(int corners, double radius);
 PlanPiece polygonPiece(std::span<const PlanCorner> corners);
 
-/// Moves a piece so that its middle lies on the outline of another piece, at a position drawn from `key`. If the piece
-/// contains its own middle, the two pieces overlap.
+/// Moves a piece so that its middle lies on the outline of the other piece, at a position drawn from `key`. If the
+/// moved piece contains its own middle, the two pieces overlap.
 void putOnOutline(PlanPiece& piece, const PlanPiece& other, PathKey key);
 
 bool isConvex(const PlanPiece& piece);

@@ -80,11 +80,11 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
   const auto wins = [&](const Candidate& c) {
     return std::none_of(around.begin(), around.end(), [&](std::ptrdiff_t away) {
       const Candidate& other = *(&c + away);
-      // Only a candidate with higher priority can reject c. Equal priorities are decided by position, so that both
-      // candidates get the same decision.
+      // Only another candidate with a higher priority can reject candidate c. For equal priorities, the positions
+      // decide, so that the result is the same from the view of both candidates.
       if (other.priority < c.priority || (other.priority == c.priority && other.at <= c.at)) return false;
-      // A candidate is far enough away if its distance along one axis reaches the radius. So the sum of squares cannot
-      // overflow.
+      // If the distance along one axis reaches the radius, the candidate is far enough away. Otherwise each squared
+      // distance is so small that the sum of squares cannot overflow.
       uint64_t square = 0;
       for (size_t a = 0; a < 3; ++a) {
         const auto d = static_cast<uint64_t>(std::abs(other.at[a] - c.at[a]));

@@ -24,11 +24,12 @@ struct LatticePoint {
 std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, Int3 cell, PathKey key, int32_t radius,
                                                        size_t limit);
 
-/// Returns `count` points spread over the top fraction `up` (0..1) of the area of a sphere: strips of equal area,
-/// rotated by the golden angle, jittered by the key.
+/// Returns `count` points on the top part of a sphere, which is the fraction `up` (0..1) of its area: one point in each
+/// of `count` horizontal strips of equal area. From strip to strip the point is rotated by the golden angle. `key`
+/// draws the jitter.
 std::vector<Vec3> scatterOnShell(PathKey key, size_t count, double radius, double up);
-/// Returns independent uniform points in a centred box with the given edges, or (scatterOnDisc) on a disc in the plane
-/// y = 0.
+/// scatterInBox() returns independent uniform points in a box around the origin with the given edges; scatterOnDisc(),
+/// on a disc around the origin in the plane y = 0.
 std::vector<Vec3> scatterInBox(PathKey key, size_t count, Vec3 edges);
 std::vector<Vec3> scatterOnDisc(PathKey key, size_t count, double radius);
 

@@ -22,8 +22,8 @@ struct SplitSize {
   bool repeated = false;  ///< true: the part belongs to the repeated group, a run of consecutive parts
 };
 
-/// The position of a part in metres from the low end, as length and middle, so that equal parts in a run have bitwise
-/// equal lengths.
+/// The position of a part, in metres from the low end. It is stored as length and middle instead of two ends, so that
+/// equal parts in a run have bitwise equal lengths.
 struct SplitPlace {
   uint32_t part = 0;        ///< index of the part in the input of layOut()
   uint32_t repetition = 0;  ///< index of the repetition of the group, from 0; 0 outside of the group
@@ -32,7 +32,7 @@ struct SplitPlace {
 
 struct SplitLayout {
   std::vector<SplitPlace> places;  ///< places of the parts with a non-zero size, in order
-  double repetitions = 0;          ///< number of repetitions of the group
+  double repetitions = 0;          ///< number of repetitions of the split's repeated group of parts
   bool cut_off = false;            ///< true: the rigid parts together exceed the length
   bool too_many = false;           ///< true: there would be more than `most` parts; `places` is empty
 };

@@ -25,7 +25,7 @@ struct Rest {
   bool columns() const { return rect.width() >= rect.depth(); }
   double side() const { return columns() ? rect.depth() : rect.width(); }
   double across() const { return columns() ? rect.width() : rect.depth(); }
-  /// Area per unit of weight, units squared.
+  /// Area for each unit of weight, in square units of length.
   double scale() const { return side() * across() / weight; }
 };
 

@@ -13,8 +13,8 @@ namespace {
 
 /// The number of choices that the first search may undo before it restarts.
 constexpr uint64_t kFirstRetreats = 32;
-/// The cost of a visit in units of work is the number of labels, times the number of 64-bit words for a set of tiles,
-/// divided by this constant; it is at least 1.
+/// Divisor in the cost of a visit. This cost, in units of work, is the number of labels, times the number of 64-bit
+/// words in a set of tiles, divided by this constant; it is at least 1.
 constexpr uint64_t kLabelsOfVisit = 8;
 
 constexpr size_t facing(size_t side) { return side < 4 ? (side + 2) % 4 : 9 - side; }
@@ -134,7 +134,7 @@ class TileSearch {
     Tiles before;
   };
   struct Choice {
-    size_t changes;  ///< number of changes before the choice
+    size_t changes;  ///< number of changes that were made before the choice
     uint32_t place;
     uint16_t tile;
   };
@@ -161,8 +161,8 @@ class TileSearch {
     }
   }
 
-  /// Removes the tiles that do not match the border, and then those that match no tile of a neighbouring place. Visits
-  /// each place at least once.
+  /// Removes the tiles that do not match the border. Then removes the tiles that match no tile of some neighbouring
+  /// place. Visits each place at least once.
   bool begin() {
     spent_ = max_visits_ < domains_.size();
     if (spent_) return false;
@@ -245,7 +245,7 @@ class TileSearch {
         if (!narrow(*other, fits)) return false;
       }
     }
-    // asked_ contains each changed place; some more than once if they changed again.
+    // asked_ contains every changed place; a place that changed again is contained more than once.
     for (const uint32_t place : asked_) wait(place);
     asked_.clear();
     return true;
@@ -290,9 +290,10 @@ class TileSearch {
   uint64_t key_, max_visits_;
   size_t max_bytes_;
   uint64_t attempt_ = 0, visits_ = 0;
-  bool spent_ = false;                                  ///< true: the limit of visits or of memory is exceeded
-  std::vector<uint8_t> labels_;                         ///< labels that any tile uses
-  std::array<std::array<Tiles, 64>, kWaveSides> with_;  ///< tiles that have a given label on a given side
+  bool spent_ = false;           ///< true: the limit of visits, or of memory, is exceeded
+  std::vector<uint8_t> labels_;  ///< indices of the labels that any tile uses
+  /// with_[side][label]: the tiles that have this label on this side
+  std::array<std::array<Tiles, 64>, kWaveSides> with_;
   std::vector<Tiles> domains_;
   std::vector<uint32_t> failures_;
   std::vector<uint32_t> asked_;  ///< queue of places whose neighbours must be visited

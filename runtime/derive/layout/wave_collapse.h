@@ -33,7 +33,8 @@ struct WaveLattice {
 enum class WaveEnd : uint8_t {
   solved,
   impossible,  ///< it is proven that no choice of tiles fits
-  gave_up,     ///< max_visits is exceeded (at once if it is less than the number of places), or max_bytes is exceeded
+  gave_up,     ///< the search needs more than max_visits visits (it ends at once if max_visits is less than the number
+               ///< of places) or more than max_bytes
 };
 
 struct WaveResult {
@@ -41,8 +42,8 @@ struct WaveResult {
   std::vector<uint16_t> tiles;  ///< index of the tile at each place, if solved; x fastest, then y, then z
   uint64_t visits = 0;          ///< number of visits of places, as a measure of the work; at most max_visits
   uint64_t work = 0;            ///< cost of the visits: a visit costs more with many labels and tiles
-  /// If not solved: the place where most often no tile fitted, and, for each of its sides, the labels that its
-  /// neighbour allows there. kNoPlace: the search ended before any place failed.
+  /// If not solved: the place where the search most often found no tile that fits. wanted: for each side of this place,
+  /// the labels that the neighbour there allows. kNoPlace: the search ended before any place failed.
   uint32_t place = 0;
   std::array<WaveLabels, kWaveSides> wanted{};
 };

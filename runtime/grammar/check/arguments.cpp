@@ -23,7 +23,7 @@ std::string signatureOf(const Callee& callee) {
 }
 
 /// The parser reads the argument `salt -3` as a subtraction. If `salt` is a parameter of the callee and no other
-/// visible name, returns `salt`, since a named argument was probably meant; otherwise returns kNoId.
+/// visible name, the author probably meant the named argument `salt`: then returns `salt`, otherwise kNoId.
 NameId meantByDifference(const CheckContext& check, const Symbols& symbols, const Scope& scope, const ArgNode& arg,
                          const std::vector<FormalView>& formals) {
   const ExprNode& value = check.node(arg.value);

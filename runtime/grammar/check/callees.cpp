@@ -44,7 +44,9 @@ void Symbols::reportUnknownName(const Span& span, NameId name, const Scope& scop
                                              : join({"add `let ", word, " = ...;`, or `param ", word, " = ...;`"})));
 }
 
-/// Reports an error if the receiver is a missing import, and returns whether it is.
+/// Handles a receiver (the name before a dot) that is no known name: if it was probably meant as an imported file,
+/// reports that nothing is imported under this name and returns true. Returns true without an error if the name may be
+/// declared in text that failed to parse.
 bool Symbols::reportMissingImport(const ExprNode& receiver, const Scope& scope, bool shape) {
   const std::string_view word = check_.text(receiver.name);
   if (isValueWord(word)) return false;
@@ -92,7 +94,8 @@ bool Symbols::resolveCallee(ExprId call, const Scope& scope, bool shape) {
     }
     if (!hidden && import == nullptr && reportMissingImport(receiver, scope, shape)) return true;
     if (hidden || import == nullptr || !import->import) return false;
-    if (import->id == kNoId && mayBeLost(kNoId, n.name)) return true;  // kNoId: the imported file could not be read
+    // a module id of kNoId means that the imported file could not be read
+    if (import->id == kNoId && mayBeLost(kNoId, n.name)) return true;
     module = import->id;
   }
   const Symbol* const found = find(module, n.name);

@@ -63,7 +63,7 @@ void checkHeads(CheckContext& check) {
 /// Checks rules that cannot be reached from any start, and warns of them. This includes rules that are called only by
 /// such rules.
 void checkUnreached(CheckContext& check, const Symbols& symbols, RuleTypes& rules, Statements& statements) {
-  // After errors there are no warnings: a call in a statement with an error may be the one that uses the rule.
+  // No warnings after errors: statements with errors are incomplete, so a call of the rule may be missing.
   const bool warns = check.sink.errorCount() == 0 && symbols.areLayersKnown() && !check.program.layers.empty();
   std::vector<uint32_t> unreached;
   for (uint32_t r = 0; r < check.program.rules.size(); ++r)
@@ -74,7 +74,7 @@ void checkUnreached(CheckContext& check, const Symbols& symbols, RuleTypes& rule
     if (rule.module == 0 && warns)
       check.sink.warning(rule.span, codes::kUnusedRule, join({"nothing derives `", check.text(rule.name), "`"}),
                          "call it in a rule, or remove it");
-    if (rules.isReached(r)) continue;  // reached meanwhile by a call of another unreached rule
+    if (rules.isReached(r)) continue;  // meanwhile, the check of another unreached rule has found a call of this rule
     rules.assume(r, typesOf(check.program, rule.alternatives[0].formals));
     statements.checkRule(r);
     statements.checkWaiting();

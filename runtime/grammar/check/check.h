@@ -20,13 +20,13 @@ namespace sgm {
 
 struct CheckFindings {
   std::vector<RuleCall> calls;
-  /// The program uses an unknown name that may be declared in a part of the text that failed to parse.
+  /// true: the program uses an unknown name; a part of the text that could not be parsed may declare it
   bool uses_lost = false;
 };
 
-/// Runs all checks except those for recursion and reach. Reports errors to the sink, which already contains those of
-/// loading and parsing. syntax: of all files; [0] is the root. library: the root is meant for import, so it needs no
-/// start.
+/// Runs all checks except those for recursion and reach. Reports errors to the sink, which already contains the errors
+/// of loading and parsing. syntax: the syntax trees of all files; syntax[0] is the root file's. library: true: the root
+/// is meant to be imported, so it needs no start.
 CheckFindings checkProgram(Program& program, NameTable& names, const std::vector<ModuleSyntax>& syntax,
                            const CompileLimits& limits, DiagnosticSink& sink, bool library);
 

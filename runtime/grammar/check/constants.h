@@ -24,7 +24,7 @@ class Constants {
   std::map<uint32_t, double> lets_;  ///< cached values; keys are indices into Program::lets
 };
 
-/// Whether an expression consists only of number literals and arithmetic, without any name.
+/// Whether an expression consists only of number literals and arithmetic; false if it contains a name.
 bool isLiteral(const Program& program, ExprId id);
 
 }  // namespace sgm

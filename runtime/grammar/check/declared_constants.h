@@ -16,7 +16,7 @@ std::optional<double> checkConstant(CheckContext& check, Types& types, ExprId id
 /// Like checkConstant(), for a length that must be a whole number of units. Returns the number of units.
 std::optional<int64_t> checkWholeUnits(CheckContext& check, Types& types, ExprId id, std::string_view what);
 
-/// Requires that the defaults and ranges of the parameters of rules, lets and fields are literals.
+/// Checks the parameters of rules, lets and fields: their default values and ranges must be literals.
 void checkFormalLiterals(CheckContext& check);
 /// Evaluates the ranges of the parameters of rules, lets and fields. Precondition: checkFormalLiterals() found no
 /// error.

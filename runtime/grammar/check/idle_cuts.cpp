@@ -16,7 +16,7 @@ void cutsIn(const Program& program, DiagnosticSink& sink, StmtId block) {
 }
 
 /// Warns if the statement is a cut without effect: a cut removes only from content that precedes it in its block.
-/// first: no content precedes this statement in its block.
+/// first: true if no content precedes this statement in its block.
 void cutsOf(const Program& program, DiagnosticSink& sink, StmtId id, bool first) {
   if (id == kNoId || sink.full()) return;
   const StmtNode& s = program.stmt(id);
@@ -46,11 +46,13 @@ void cutsOf(const Program& program, DiagnosticSink& sink, StmtId id, bool first)
       return;
     }
     case StmtKind::extrude:
-      // The extruded piece precedes the statements of the block, so a cut may come first.
+      // The extruded shape precedes the statements of the block. So the first statement of this block may be a cut:
+      // there is something that it can cut.
       if (s.body != kNoId) cutsIn(program, sink, s.body);
       return;
     case StmtKind::treemap:
-      // The open space of a room or corridor precedes the statements of its block, so a cut may come first.
+      // The shapes of a room's or corridor's open space precede the statements of the room's block. So the first
+      // statement of this block may be a cut: there is something that it can cut.
       for (uint32_t i = 0; i < s.children.count; ++i) {
         const StmtId child = program.idAt(s.children, i);
         const bool open = program.ast.parts[s.parts.first + i].floor != FloorPart::facade;

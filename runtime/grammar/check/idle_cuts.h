@@ -6,8 +6,9 @@
 
 namespace sgm {
 
-/// Warns of each cut in `body` that has no preceding content in its block. follows: content precedes the whole body, so
-/// that even its first cut has an effect. Precondition: the body is checked and StmtNode::layer_level is set.
+/// Warns of each cut in `body` that has no preceding content in its block. follows: true if content precedes the whole
+/// body, so that even a cut at its beginning has an effect. Precondition: the body is checked and StmtNode::layer_level
+/// is set.
 void warnOfIdleCuts(const Program& program, StmtId body, bool follows, DiagnosticSink& sink);
 
 }  // namespace sgm

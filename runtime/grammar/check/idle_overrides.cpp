@@ -1,4 +1,4 @@
-// Counts how often a rule can derive another, to report overrides of uses that never occur.
+// Counts how often one use of a rule can derive another rule, to report overrides whose targets never occur.
 
 #include "grammar/check/idle_overrides.h"
 
@@ -15,7 +15,8 @@ constexpr uint32_t kAnyNumber = std::numeric_limits<uint32_t>::max();
 
 uint32_t sum(uint32_t a, uint32_t b) { return a > kAnyNumber - b ? kAnyNumber : a + b; }
 
-/// Returns the maximum number of copies that one use of a split, a comp or a treemap derives of its part.
+/// Returns the maximum number of times that one execution of `s` (a split, a comp or a treemap) derives `part`, which
+/// is one of its parts.
 uint32_t timesOf(const StmtNode& s, const PartNode& part) {
   switch (s.kind) {
     case StmtKind::split:
@@ -27,8 +28,8 @@ uint32_t timesOf(const StmtNode& s, const PartNode& part) {
   }
 }
 
-/// Returns an upper bound of how many statements for which counts() is true are derived by one derivation of statement
-/// `id`; kAnyNumber if loops or scatters repeat them.
+/// Returns an upper bound of the number of matching statements that one derivation of statement `id` derives. A
+/// statement matches if counts() is true for it. Returns kAnyNumber if a loop or a scatter repeats matching statements.
 template <typename Counts>
 uint32_t timesIn(const Program& program, StmtId id, const Counts& counts) {
   if (id == kNoId) return 0;
@@ -78,7 +79,7 @@ uint32_t timesIn(const Program& program, StmtId id, const Counts& counts) {
   return kAnyNumber;
 }
 
-/// Returns an upper bound of the uses of a rule that one derivation of a statement makes directly.
+/// Returns an upper bound of the number of direct uses of `rule` in one derivation of statement `id`.
 uint32_t usesIn(const Program& program, StmtId id, uint32_t rule) {
   return timesIn(program, id, [&](const StmtNode& s) {
     return s.kind == StmtKind::call && program.expr(s.expr).ref == Ref::rule && program.expr(s.expr).id == rule;
@@ -94,8 +95,8 @@ uint32_t usesInCall(const Program& program, ExprId call, uint32_t rule) {
   return call != kNoId && program.expr(call).ref == Ref::rule && program.expr(call).id == rule ? 1 : 0;
 }
 
-/// Returns an upper bound of the uses of `rule` directly below one use of `parent`. A use of `parent` derives one of
-/// the heads without `lod`, plus every head with `lod`, each at some level.
+/// Returns an upper bound of the number of times that one use of `parent` directly uses `rule`. One use of `parent`
+/// derives one of its heads without `lod`. In addition it derives every head with `lod`, each for some level of detail.
 uint32_t usesBelow(const Program& program, const Rule& parent, uint32_t rule) {
   uint32_t plain = 0, by_level = 0;
   for (const Alternative& head : parent.alternatives) {

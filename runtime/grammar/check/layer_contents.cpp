@@ -1,5 +1,5 @@
-// Finds the levels of detail that show the content of each rule, from callees to callers. Repeats until nothing
-// changes, since rules may call each other.
+// Finds the levels of detail that show the content of each rule. Contents flow from callees to callers, repeatedly
+// until nothing changes, since rules may call each other.
 
 #include "grammar/check/layer_contents.h"
 
@@ -63,8 +63,9 @@ class RuleContents {
   }
 
  private:
-  /// Orders rules so that callees precede callers, except in cycles. Without cycles, a single pass in this order finds
-  /// all contents, and a second pass confirms them.
+  /// Appends the rule that `start` refers to, and the rules that it calls, to the order. Callees precede callers,
+  /// except in cycles. Without cycles, one pass over the rules in this order finds all contents, and a second pass
+  /// confirms that nothing changes.
   void orderFrom(ExprId start) {
     if (start == kNoId || program_.expr(start).ref != Ref::rule || ordered_[program_.expr(start).id]) return;
     std::vector<std::pair<uint32_t, size_t>> path{{program_.expr(start).id, 0}};
@@ -149,7 +150,7 @@ class RuleContents {
     return all;
   }
 
-  /// Returns an upper bound of a length expression, in units, at least 1.
+  /// Returns an upper bound of the value of a length expression, in units. The result is at least 1.
   int32_t mostOf(ExprId length) {
     const double most = values_.number(length, frame_).hi * kUnitsPerMetre + 1;
     constexpr int32_t kLargest = std::numeric_limits<int32_t>::max();
@@ -160,7 +161,7 @@ class RuleContents {
   const Program& program_;
   uint32_t steps_;
   RangeEvaluator values_;
-  RangeFrame frame_;  ///< a frame in which arguments, scope, place and cell may have any value
+  RangeFrame frame_;  ///< the frame for evaluating lengths; arguments, scope, place and cell may have any value in it
   std::vector<Contents> of_rule_;
   std::vector<bool> ordered_;
   std::vector<uint32_t> order_;

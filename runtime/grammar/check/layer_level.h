@@ -16,15 +16,15 @@ class LayerLevel {
  public:
   explicit LayerLevel(CheckContext& check) : check_(check) {}
 
-  /// Sets StmtNode::layer_level in the start rules of layers and in the overrides that may apply there. Reports an
-  /// error if an `inner`, which stands for the content that an override replaces, is nested in other shapes and this
-  /// content may contain a cut of the domain. Precondition: all rules and overrides are checked.
+  /// Sets StmtNode::layer_level in the start rules of layers and in the overrides that may apply there. Precondition:
+  /// all rules and overrides are checked. An `inner` statement stands for the content that an override replaces:
+  /// reports an error if it is nested in other shapes although this content may contain a cut of the domain.
   void mark();
 
  private:
   void markStatement(StmtId id);
-  /// index: into Program::overrides. cuts: the replaced content contains a cut of the domain, so `inner` must stand at
-  /// the top level of the layer.
+  /// index: into Program::overrides. cuts: true if the content that the override replaces contains a cut of the domain;
+  /// `inner` must then stand at the top level of the layer.
   void markOverride(uint32_t index, bool cuts);
   bool cutsDomain(StmtId id) const;
 

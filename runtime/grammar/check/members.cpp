@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-/// A member that values of the kind `of` have, such as x of a vector. A member of a vector has the vector's dimension.
+/// A member of values of the kind `of`, such as x of a vector. The members of a vector have the vector's dimension.
 struct MemberInfo {
   ValueKind of;
   std::string_view name;
@@ -38,7 +38,8 @@ constexpr std::array kMembers = {
     MemberInfo{ValueKind::segment, "depth", Member::depth, kRatioType},
 };
 
-/// Returns a hint that suggests a similar member of this kind of value, or lists all of them.
+/// Returns the hint for an unknown member `word` of a value of the kind `of`: the member with the most similar name, or
+/// a list of all members if no name is similar.
 std::string memberHint(std::string_view word, ValueKind of) {
   if (of == ValueKind::faces || of == ValueKind::segments) return "go through the list: for s in ...";
   Suggestion suggestion(word);
@@ -93,7 +94,7 @@ Type Types::checkMember(ExprId id) {
   const ExprId of = check_.child(n, 0);
   const std::string_view word = check_.text(n.name);
   if (check_.node(of).kind == ExprKind::name) {
-    // module.name, which refers to a let or field without arguments
+    // Here the member is of the form module.name. Such a name refers to a let or a field without arguments.
     const NameId receiver = check_.node(of).name;
     const Symbol* const found = symbols_.find(scope_.module, receiver);
     if (!scope_.hides(receiver) && found != nullptr && (found->import || found->asset)) {

@@ -14,8 +14,8 @@ namespace {
 constexpr size_t kDeepestPath = 64;  // DeriveLimits::depth
 constexpr std::string_view kExample = "such as \"net(0, 0, -1)/Node/Chamber[0]\", as messages print it";
 
-/// Returns the span in the source of a part of an address. The span is wrong behind an escaped quote, which is longer
-/// in the source than in the address.
+/// Returns the span in the source of a part of an address. For a part after an escaped quote, the span is wrong: the
+/// escaped quote is longer in the source than in the address.
 Span spanIn(const Override& edit, const PathPlace& place) {
   Span span = edit.address_span;
   const uint32_t length = span.end - span.begin - 2;
@@ -27,7 +27,7 @@ Span spanIn(const Override& edit, const PathPlace& place) {
   return span;
 }
 
-/// Returns the tag that a path without a match was probably meant to be; empty if none is similar.
+/// Returns the tag that the author probably meant by a path that matches no rule; empty if no tag fits.
 std::string tagMeant(const Program& program, std::string_view path) {
   constexpr std::string_view kTag = "tag";
   if (path.starts_with(kTag) && path.size() > kTag.size() + 1 && (path[3] == ':' || path[3] == ' ' || path[3] == '='))

@@ -15,10 +15,10 @@ namespace sgm {
 struct WrittenPath;
 struct WrittenStep;
 
-/// Resolves each step of a path to a rule, by the rules that its parent calls.
+/// Resolves each step of a path to a rule: one of the rules that the rule of the previous step calls.
 class OverridePaths {
  public:
-  /// calls: of all rules that can be reached from the layers' start calls.
+  /// calls: the calls in all rules that can be reached from the layers' start calls.
   OverridePaths(CheckContext& check, const Symbols& symbols, const std::vector<RuleCall>& calls);
 
   /// Sets the layer, the cell and the steps of an override by path. Leaves the steps empty after reporting an error, or
@@ -37,7 +37,8 @@ class OverridePaths {
 
   CheckContext& check_;
   const Symbols& symbols_;
-  /// by index of the calling rule: each called rule, with the import alias by which it is called (or kNoId)
+  /// by index of the calling rule: all rules that it calls, each with the import alias in front of its name in the call
+  /// (kNoId: none)
   std::vector<std::set<std::pair<uint32_t, NameId>>> callees_;
 };
 

@@ -15,8 +15,8 @@ namespace sgm {
 
 namespace {
 
-/// Calls visit() for each room of a treemap, with the position of its child in Ast::ids and its tag, which is the
-/// room's name unless a block sets another one.
+/// Calls visit() for each room of a treemap, with the index in Ast::ids of the id of the room's statement, and with the
+/// room's tag: the room's name, unless the statement is a block that sets another tag.
 template <class Visit>
 void forEachRoom(const Program& program, const StmtNode& s, const Visit& visit) {
   for (uint32_t i = 0; s.kind == StmtKind::treemap && i < s.parts.count; ++i) {
@@ -114,9 +114,9 @@ void Overrides::findTags() {
   if (!found.empty()) tagRooms();
 }
 
-/// Turns the content of each room whose name is overridden as a tag into a block with that tag.
+/// If an override by tag names a room, turns the room's content into a block with that tag.
 void Overrides::tagRooms() {
-  // the rooms, each as the index of its child in Ast::ids and its tag
+  // for each room: the index in Ast::ids of the id of its statement, and its tag
   std::vector<std::pair<uint32_t, uint16_t>> rooms;
   for (const StmtNode& s : check_.program.ast.stmts) {
     forEachRoom(check_.program, s, [&](uint32_t place, uint16_t tag) {
@@ -140,7 +140,7 @@ void Overrides::tagRooms() {
   }
 }
 
-/// Sorts the overrides by path by the rules and indices of their steps.
+/// Sorts the path overrides by their steps: each step first by its rule, then by its index.
 void Overrides::orderPaths() {
   std::pmr::vector<uint32_t>& order = check_.program.path_overrides;
   for (uint32_t o = 0; o < check_.program.overrides.size(); ++o)
@@ -154,7 +154,8 @@ void Overrides::orderPaths() {
   });
 }
 
-/// Reports overrides without effect: a later override with the same address replaces them and does not use `inner`.
+/// Reports each override that has no effect, because a later override with the same address replaces it without using
+/// `inner`.
 void Overrides::reportHidden() {
   const auto same = [&](const Override& a, const Override& b) {
     if (a.by_tag != b.by_tag || a.layer != b.layer || a.one_cell != b.one_cell || a.cell != b.cell) return false;
@@ -211,7 +212,7 @@ void Overrides::assignToRules() {
       }
     };
     for (const Alternative& a : rule.alternatives) tagged(tagsIn(check_.program, a.body));
-    // Blocks within the overrides' own blocks may have tags that are overridden, too.
+    // Blocks with tags may also occur within the overrides' own blocks, and may be overridden there.
     while (!open.empty()) {
       const uint32_t o = open.back();
       open.pop_back();
@@ -219,7 +220,8 @@ void Overrides::assignToRules() {
     }
     rule.overrides.assign(held.begin(), held.end());
     for (const uint32_t o : rule.overrides) {
-      // Calls in overrides add no unbounded recursion, since an override does not apply again within its own block.
+      // These calls of overrides count as calls of the rule. They cause no unbounded recursion, since an override does
+      // not apply again within its own block.
       for (const RuleCall& call : uses_[o].calls) rule.calls.push_back(call.to);
       for (const AskedLayer& asked : uses_[o].asked)
         rule_uses_.asked.push_back({r, asked.layer, asked.span, asked.verb});

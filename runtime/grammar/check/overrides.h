@@ -18,9 +18,9 @@ class Overrides {
   Overrides(CheckContext& check, Symbols& symbols, const RuleTypes& rules, Statements& statements, RuleUses& uses)
       : check_(check), symbols_(symbols), rules_(rules), statements_(statements), rule_uses_(uses) {}
 
-  /// Checks all overrides. Must run after all rules that are reachable from starts are checked, so that names in
-  /// overrides are known, and so that materials first named in overrides get the last indices: all other indices are
-  /// the same as without overrides.
+  /// Checks all overrides. Must run after the check of all rules that are reachable from starts: then names in
+  /// overrides are known. Materials that are first named in overrides also get the last indices, so that all other
+  /// materials keep the indices that they have without overrides.
   void run();
 
   bool mayBeInRoom(uint32_t index) const { return in_rooms_.contains(index); }

@@ -8,7 +8,8 @@ namespace sgm {
 
 namespace {
 
-/// Returns the first call `box(scope)` in a statement that is derived in the statement's own scope; kNoId: none.
+/// Returns the first call `box(scope)` in statement `id` whose scope is the statement's own, not one that a nested
+/// statement changes; kNoId: none.
 ExprId boxOfScope(const Program& program, StmtId id) {
   const StmtNode& s = program.stmt(id);
   if (s.kind == StmtKind::block || s.kind == StmtKind::cut || s.kind == StmtKind::unite) {

@@ -40,7 +40,8 @@ void checkArea(CheckContext& check, Types& types, ScatterNode& scatter, const Sp
 
 }  // namespace
 
-/// Names declared in a `detail` must not be used after it: they have no value at levels that omit the detail.
+/// Checks a `detail`. Names declared in it must not be used after it: they have no value at levels that omit the
+/// detail.
 void Statements::checkDetail(const StmtNode& s, bool shrunk) {
   types_.require(s.expr, ValueKind::number, kLength, "the size of a detail");
   const size_t known = types_.scope().locals.size();

@@ -9,7 +9,8 @@ namespace sgm {
 
 namespace {
 
-/// Reports an error if the plan's name is undeclared, and returns whether it is.
+/// Returns true if the plan's name is undeclared. Reports an error then, unless its declaration may be in a part of the
+/// text that failed to parse.
 bool reportUnknownPlan(CheckContext& check, Symbols& symbols, const Scope& scope, ExprId id, StmtId body) {
   const ExprNode& plan = check.node(id);
   if (scope.hides(plan.name) || symbols.find(scope.module, plan.name) != nullptr) return false;

@@ -11,8 +11,8 @@ namespace sgm {
 
 namespace {
 
-/// Finds recursive rules for which no bound can be proven, by finding the calls that certainly make progress towards an
-/// end.
+/// Finds recursive rules for which no bound can be proven. To this end it finds the calls that certainly make progress
+/// towards an end of the recursion.
 class RecursionCheck {
  public:
   RecursionCheck(const Program& program, const std::vector<RuleCall>& calls, uint32_t steps, DiagnosticSink& sink)
@@ -116,9 +116,10 @@ class RecursionCheck {
     return most;
   }
 
-  /// Whether an argument is certainly smaller than the formal a in `slot`. Understands the forms a * f and f * a with
-  /// abs(f) * larger <= 0.999, a / f with larger / f <= 0.999, and a - f with f > 0.001 and larger <= 1. larger: upper
-  /// bound of the factor by which enclosing scales enlarge the argument.
+  /// Whether an argument is certainly smaller than the formal in `slot`, here called a. Understands the forms a with
+  /// larger <= 0.999, a * f and f * a with abs(f) * larger <= 0.999, a / f with larger / f <= 0.999, and a - f with
+  /// f > 0.001 and larger <= 1. larger: upper bound of the factor by which the scales around the call enlarge the
+  /// argument.
   bool shrinks(ExprId id, uint32_t slot, const Alternative& head, double larger = 1) {
     const ExprNode& n = program_.expr(id);
     constexpr double kSurely = 0.999;
@@ -133,8 +134,8 @@ class RecursionCheck {
     return n.binary == BinaryOp::subtract && isSlot(left) && larger <= 1 && values_.number(right, frame).lo > 1e-3;
   }
 
-  /// Whether the condition requires that the value in `slot` exceeds a bound, and this bound is finite for all values
-  /// of the other names. positive: set to whether the bound is certainly above 0.
+  /// Whether the condition requires that the value in `slot` exceeds a bound that is finite for all values of the other
+  /// names. positive: set to whether the bound is certainly above 0.
   bool bounds(ExprId id, uint32_t slot, bool& positive, const Alternative& head) {
     const ExprNode& n = program_.expr(id);
     if (n.kind != ExprKind::binary) return false;
@@ -171,7 +172,8 @@ class RecursionCheck {
       bool positive = false;
       const ExprId arg = program_.idAt(n.bound, slot);
       if (!bounds(head.when, slot, positive, head) || !shrinks(arg, slot, head)) continue;
-      // Repeated multiplication may converge to 0 without ever passing a bound of 0, so the bound must be positive.
+      // Repeated subtraction passes every bound. Repeated multiplication may converge to 0 without ever reaching a
+      // bound of 0, so in this case the bound must be positive.
       if (program_.expr(arg).binary == BinaryOp::subtract || positive) return true;
     }
     return false;

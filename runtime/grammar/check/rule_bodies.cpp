@@ -31,7 +31,7 @@ std::string_view shapeHint(const ExprNode& call) {
   }
 }
 
-/// Whether values of this kind may be arguments of rules. True for unknown types, which follow from an error.
+/// Whether values of this kind may be arguments of rules. True for unknown types, which result from an earlier error.
 bool isPassed(ValueKind kind) {
   switch (kind) {
     case ValueKind::unknown:
@@ -141,7 +141,7 @@ void Statements::checkAlternative(uint32_t rule, uint32_t alternative) {
   std::move(uses_.asked.begin(), uses_.asked.end(), std::back_inserter(rule_uses_.asked));
 }
 
-/// Checks the conditions of a head, and the calls that replace its body.
+/// Checks the conditions of a head, and the calls that replace its body when its `depth` or `minsize` is reached.
 void Statements::checkHead(const Alternative& head) {
   if (head.when != kNoId) types_.require(head.when, ValueKind::boolean, kRatio, "a guard");
   if (head.weight != kNoId) {

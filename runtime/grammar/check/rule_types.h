@@ -22,7 +22,7 @@ class RuleTypes {
   bool isChecked(uint32_t rule) const { return states_[rule] == State::checked; }
   const std::vector<Type>& of(uint32_t rule) const { return types_[rule]; }
 
-  /// Sets the types of a rule that no call uses.
+  /// Sets the parameter types of a rule that is checked although no call uses it.
   void assume(uint32_t rule, std::vector<Type> types);
   /// Sets the parameter types that the first call passes, and queues the rule.
   void reach(uint32_t rule, std::vector<Type> types);

@@ -20,8 +20,9 @@ struct RuleCall {
   uint32_t alternative = 0;
   uint32_t to = 0;
   ExprId call = kNoId;
-  bool escape = false;  ///< the call replaces the rule's body when its `depth` or `minsize` is reached
-  bool shrunk = false;  ///< a `size`, a split or another division around the call has made the scope smaller
+  /// true for a call after `->`: it replaces the rule's body once the rule's `depth` or `minsize` is reached
+  bool escape = false;
+  bool shrunk = false;  ///< true if a `size`, a split or another division around the call has made the scope smaller
   std::vector<ScaleAround> scales;  ///< the `scale` transforms around the call, outermost first
 };
 

@@ -26,8 +26,10 @@ struct Scope {
   std::vector<Local> locals;
   uint32_t next_slot = 0;
   uint32_t slot_count = 0;
-  uint32_t* draws = nullptr;                 ///< counts the calls of rand and chance; null: draws are not counted
-  std::vector<AskedLayer>* asked = nullptr;  ///< receives probes and queries; null outside of rules and overrides
+  uint32_t* draws = nullptr;                 ///< counter that is increased by each call of rand or chance; null: these
+                                             ///< calls are not counted
+  std::vector<AskedLayer>* asked = nullptr;  ///< receives the layers that the checked expression probes or queries;
+                                             ///< null outside of rules and overrides
 
   /// Whether the checked expression is in a rule or an override: `cell` and `scope` are defined, and `rand` needs no
   /// key.
@@ -36,7 +38,7 @@ struct Scope {
   bool hides(NameId name) const {
     return std::any_of(locals.begin(), locals.end(), [name](const Local& local) { return local.name == name; });
   }
-  /// Removes the locals declared since there were `count` of them, at the end of their block.
+  /// Ends a block: keeps the first `count` locals, which were declared before the block, and removes all others.
   void closeTo(size_t count) { locals.resize(std::min(count, locals.size())); }
 };
 

@@ -145,13 +145,14 @@ void Statements::checkStatement(StmtId id, bool shrunk) {
     case StmtKind::fit:
       return checkFit(check_, symbols_, types_, copy);
     case StmtKind::inner:
-    case StmtKind::link:    // A link is checked together with its treemap.
-    case StmtKind::border:  // A border is checked together with its wfc.
+    case StmtKind::link:    // Nothing to do: a link is checked as a part of the treemap statement that contains it.
+    case StmtKind::border:  // Nothing to do: a border is checked as a part of the wfc statement that contains it.
       return;
   }
 }
 
-/// Checks transform and repeat. The scopes of a repeat's copies are not assumed to shrink.
+/// Checks transform and repeat. shrunk: whether the enclosing statements are sure to make the scope smaller. A
+/// transform can do so, too; for the copies of a repeat this is not assumed.
 void Statements::checkTransform(const StmtNode& s, bool shrunk) {
   const size_t outside = scales_.size();
   const bool copied = s.kind == StmtKind::repeat;
@@ -199,7 +200,8 @@ void Statements::checkField(const StmtNode& s) {
   types_.scope().slot_count = std::max(types_.scope().slot_count, types_.scope().next_slot);
   field.slot_count = types_.scope().slot_count;
   if (field.formals.count > 0) return;
-  // A field without parameters is checked here, even if it is never used.
+  // Check the body of a field without parameters here, so that errors are found even in a field that is never used. A
+  // field with parameters is checked at its calls.
   const size_t locals = types_.scope().locals.size();
   types_.scope().locals.resize(local.depth);
   const bool in_field = std::exchange(types_.scope().field, true);

@@ -13,14 +13,14 @@
 
 namespace sgm {
 
-/// Checks the bodies of rules and overrides. State while a body is checked: the number of its statements and random
-/// draws so far, the scales around the current statement, and the rules and layers used.
+/// Checks the bodies of rules and overrides. While a body is checked, stores the number of its statements and random
+/// draws so far, the `scale` transforms around the current statement, and the rules and layers used.
 class Statements {
  public:
   /// uses: receives the calls of rules, the probes and the queries.
   Statements(CheckContext& check, Symbols& symbols, Types& types, RuleTypes& rules, RuleUses& uses)
       : check_(check), symbols_(symbols), types_(types), rules_(rules), rule_uses_(uses) {}
-  Statements(const Statements&) = delete;  // Types::scope() contains pointers to members of this object
+  Statements(const Statements&) = delete;  // not copyable: Types::scope() contains pointers to members of this object
   Statements& operator=(const Statements&) = delete;
 
   /// Checks the start call of a layer.

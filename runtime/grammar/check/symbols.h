@@ -35,23 +35,23 @@ class Symbols {
   /// Returns the meaning of a name in a module; nullptr if the module does not declare the name.
   const Symbol* find(uint32_t module, NameId name) const;
 
-  /// To be called after the layers are sorted. If sorting failed, it is not called, and unknown layers are not
+  /// Must be called once the layers are sorted. If sorting fails, it is not called; then unknown layers are not
   /// reported, since they may be a consequence of that error.
   void setLayersKnown() { layers_known_ = true; }
   bool areLayersKnown() const { return layers_known_; }
   /// Returns the index of a layer in Program::layers; kNoId after reporting an error at `span`.
   uint32_t findLayer(NameId name, const Span& span);
 
-  /// Whether an unknown name may be declared in a part of the module that failed to parse. module: kNoId for a file
-  /// that could not be read.
+  /// Whether an unknown name may be declared in a part of the module that failed to parse. module: kNoId stands for a
+  /// file that could not be read.
   bool mayBeLost(uint32_t module, NameId name);
   /// Records that the program may use a declaration that failed to parse.
   void expectLoss() { uses_lost_ = true; }
   bool usesWhatIsLost() const { return uses_lost_; }
 
   /// Sets ref, id and qualifier of a call or a name. If the receiver (the part before the dot) is a module, it is
-  /// removed from the node; if it is a value, returns false. An unknown name is reported, and its ref stays Ref::none.
-  /// shape: the context requires a call of a rule or a primitive.
+  /// removed from the node. Returns false only if the receiver is a value. An unknown name is reported, and its ref
+  /// stays Ref::none. shape: the context requires a call of a rule or a primitive.
   bool resolveCallee(ExprId call, const Scope& scope, bool shape);
 
  private:

@@ -23,7 +23,8 @@ uint8_t axisOf(const CheckContext& check, const Scope& scope, XformKind kind, Ex
   return word == "x" ? 0 : word == "y" ? 1 : word == "z" ? 2 : 3;
 }
 
-/// Reports an error if the axis name is undeclared, and returns whether it is.
+/// Returns true, after reporting an error, if the axis name is undeclared. If its declaration may be in a part of the
+/// text that failed to parse, reports nothing and returns false.
 bool reportUnknownAxis(CheckContext& check, Symbols& symbols, const Scope& scope, ExprId axis) {
   const NameId name = check.node(axis).name;
   if (isValueWord(check.text(name)) || symbols.find(scope.module, name) != nullptr || scope.hides(name) ||

@@ -11,7 +11,8 @@ namespace sgm {
 
 namespace {
 
-/// Resolves the rooms of a link, and checks its measures. Returns whether it joins two different rooms.
+/// Resolves the rooms of a link, and checks the measures of its door. Returns whether the link joins two different
+/// rooms.
 bool checkDoor(CheckContext& check, Symbols& symbols, Types& types, const StmtNode& s,
                const std::vector<NameId>& rooms) {
   LinkNode& link = check.program.ast.links[s.extra];

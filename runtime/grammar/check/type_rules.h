@@ -11,10 +11,10 @@ namespace sgm {
 constexpr Type numberType(Dim dim, bool sample = false) { return {ValueKind::number, dim, sample, false}; }
 
 /// Whether a value of this type may be used where `kind` and `dim` are required. Always true for an unknown type, since
-/// it follows from an error that is already reported.
+/// it results from an error that is already reported.
 bool agrees(const Type& type, ValueKind kind, Dim dim);
 
-/// The common type of two values. good: the two types agree, so there is one.
+/// The common type of two values. good: false if the types do not agree; then there is no common type.
 struct Unified {
   Type type;
   bool good = true;

@@ -52,15 +52,15 @@ class Types {
   /// `types` to the declared one, so that the same error is not reported again in the callee.
   void requireFormalRanges(IdRange formals, std::span<const uint32_t> bound, std::span<Type> types,
                            std::string_view callee);
-  /// Requires that the value of a checked expression is known at derivation time.
+  /// Requires that the value of a checked expression is known at derivation time. what: subject of the error message.
   void requireDerived(ExprId id, std::string_view what);
   /// Reports an error if a checked expression is constant and its value lies outside of the range.
   void judgeRange(ExprId id, const ValueRange& range);
   /// Returns the value of a checked expression if it is constant.
   std::optional<double> fold(ExprId id) { return constants_.fold(id); }
 
-  /// Resolves the layer of a probe or a query and records the use in Scope::asked. Returns its index; kNoId after
-  /// reporting an error. verb: see AskedLayer.
+  /// Resolves the layer of a probe or a query and records the use in Scope::asked. Returns the layer's index; kNoId
+  /// after reporting an error. verb: see AskedLayer.
   uint32_t askLayer(NameId name, const Span& span, std::string_view verb);
 
  private:

@@ -12,7 +12,7 @@
 namespace sgm {
 namespace {
 
-/// Collects the declarations that the root's text uses.
+/// Collects the declarations that the text of the root file uses.
 struct Uses {
   std::set<std::pair<Ref, uint32_t>> values;
   std::set<NameId> qualifiers;
@@ -100,8 +100,8 @@ class Unused {
   const Uses uses_;
 };
 
-/// The interval of values of the expression `asked` for which a guard holds, with open or closed ends. asked: kNoId if
-/// the guard is too complicated to be analysed.
+/// The range of values of one expression, `asked`, for which a guard holds. The ends may be open or closed. asked:
+/// kNoId if the guard is too complicated to be analysed.
 struct GuardRange {
   ExprId asked = kNoId;
   double low = -kInfinity, high = kInfinity;
@@ -182,7 +182,7 @@ class WholeNumbers {
   }
 
  private:
-  /// The rule head whose frame contains the slots of the locals in an expression.
+  /// A head of a rule, with its body: the scope in which the slots of local names are counted.
   struct Frame {
     uint32_t rule;
     Span head;
@@ -306,7 +306,7 @@ void warnOfMaterials(const Program& program, DiagnosticSink& sink) {
                                 : std::pair(uses[material], -int64_t{place->second.begin});
   };
   for (const auto& [material, span] : first) {
-    if (material == 0) continue;  // only rules that are not derived use this name
+    if (material == 0) continue;  // material 0 stands for all names that occur only in rules that are never derived
     for (uint32_t other = 1; other < program.materials.size(); ++other) {
       const std::string_view name(program.materials[material]), theirs(program.materials[other]);
       if (!misspelt(name, theirs) || rank(material) > rank(other)) continue;

@@ -18,7 +18,7 @@ constexpr size_t kUpright = 4;
 
 size_t opposite(size_t side) { return side < kUpright ? (side + 2) % kUpright : 9 - side; }
 
-/// Whether a socket of a tile applies to this side.
+/// True if a socket of a tile applies to this side. A socket of BoxPart::side applies to all upright sides.
 bool saysSide(const SocketNode& socket, size_t side) {
   return static_cast<size_t>(socket.of) == side || (socket.of == BoxPart::side && side < kUpright);
 }
@@ -86,8 +86,8 @@ std::string labelsText(const Program& program, IdRange labels) {
   return out;
 }
 
-/// Reports a label that no tile has on the opposite side, as this side requires. there: the labels that do occur on
-/// opposite sides, one of which may be intended.
+/// Reports a label that this side requires of its neighbour, but that no tile has on the opposite side. there: the
+/// labels that do occur on opposite sides; the author may have meant one of them.
 void reportUnmet(CheckContext& check, const PartNode& part, const SocketNode& socket, size_t side, uint64_t there,
                  const WaveNode& wave) {
   const IdRange meets = socket.meets.count > 0 ? socket.meets : socket.labels;
@@ -108,14 +108,15 @@ void reportUnmet(CheckContext& check, const PartNode& part, const SocketNode& so
                      suggestion.hintOr(join({"give it to the ", across, " of a tile, or to the border", also})));
 }
 
-/// Reports sides that fit no side of any tile in any rotation; their labels are probably misspelt.
+/// Reports each side whose labels match no side of any tile in any rotation; such labels are probably misspelt.
 void checkAnswers(CheckContext& check, const StmtNode& s) {
   if (check.sink.errorCount() > 0) return;
   const WaveNode& wave = check.program.ast.waves[s.extra];
   const SideKind* kinds = check.program.ast.side_kinds.data() + wave.kinds.first;
   const auto turnsOf = [](const TileNode& tile, size_t side) { return tile.turns && side < kUpright ? kUpright : 1; };
   const auto turned = [](size_t side, size_t turn) { return side < kUpright ? (side + turn) % kUpright : side; };
-  // A border side without labels matches every side. It is ignored here, since most tiles do not lie at the border.
+  // A side of the border without labels matches the side of every tile. It is not collected here, since it would make
+  // every label of a tile count as matched, although most tiles do not lie at the border.
   std::array<std::vector<SideKind>, kSides> tiles, border;
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     const PartNode& part = check.program.ast.parts[s.parts.first + i];

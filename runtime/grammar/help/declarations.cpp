@@ -323,7 +323,8 @@ std::optional<WordAt> wordAt(std::string_view text, uint32_t offset) {
       const Span& before = lexed.tokens[dot - 1].span;
       found.qualifier = text.substr(before.begin, before.end - before.begin);
     }
-    // The offset lies between a dot and a word: the word behind the dot is chosen.
+    // Prefer a word: if the offset lies between a dot and a word, the word is chosen, not the empty place behind the
+    // dot.
     if (in_word) return found;
   }
   return found;

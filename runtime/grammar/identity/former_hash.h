@@ -1,5 +1,5 @@
 #pragma once
-// The program hash as version 0.2 computed it, from the printed text of its meaning. Needed to find journals and stores
+// The program hash of version 0.2: the hash of the text that printMeaning() prints. Needed to find journals and stores
 // written by version 0.2.
 
 #include <cstdint>

@@ -16,7 +16,7 @@ inline constexpr uint64_t kMeaningVersion = 2;
 /// them. Precondition: the file was parsed without errors, and its names are not resolved by the checker yet.
 uint64_t hashMeaning(const Program& program, const ModuleSyntax& syntax);
 
-/// Computes Program::hash, of all files and assets of a program, with the same precondition.
+/// Computes Program::hash, which covers all files and assets of a program. Precondition: as for the hash of one file.
 uint64_t hashMeaning(const Program& program, std::span<const ModuleSyntax> files);
 
 }  // namespace sgm

@@ -10,8 +10,8 @@
 
 namespace sgm {
 
-/// Reads an asset and adds it to Program::assets. Notes of the reader become warnings at `span`. Returns its index, or
-/// nullopt after reporting an error at `span` if the asset is invalid.
+/// Reads an asset and adds it to Program::assets. Notes of the reader become warnings at `span`. Returns the asset's
+/// index, or nullopt after reporting an error at `span` if the asset is invalid.
 std::optional<uint32_t> addAsset(Program& program, std::string_view path, std::string_view bytes, const Span& span,
                                  DiagnosticSink& sink);
 

@@ -20,7 +20,8 @@ bool AstBuilder::hasRoom() {
 }
 
 ExprId AstBuilder::addExpr(ExprNode node, const Span& begin) {
-  // maximum height of an expression tree; the parser builds trees such as that of a + b + c ... in loops
+  // Maximum height of an expression tree. The limit on nesting does not bound it: the parser reads `a + b + c ...` in a
+  // loop, without nesting, but each further operand makes the tree higher.
   constexpr uint16_t kDeepestTree = 128;
   if (!hasRoom()) return kNoId;
   node.span = tokens_.since(begin);

@@ -51,8 +51,8 @@ class AstBuilder {
   TokenStream& tokens_;
   uint32_t max_nodes_;
   size_t first_expr_;  ///< the index in Ast::exprs of this file's first expression
-  /// height of the tree of each expression of this file. It is limited, since loops such as the one for `a + b + ...`
-  /// build deep trees without recursion
+  /// height of the tree of each expression of this file. The height is limited separately from the nesting: the parser
+  /// reads `a + b + ...` in a loop, without recursion, but each further operand makes the tree higher
   std::vector<uint16_t> depth_;
 };
 

@@ -37,7 +37,7 @@ NameId parseNewName(ParseContext& in, std::string_view of_what) {
 void recover(ParseContext& in, Level level, size_t first) {
   in.syntax.complete = false;
   if (in.joined > 0) in.syntax.bounded = false;
-  // Words in the skipped part may be declared names, so unknown uses of them are not reported.
+  // Words in the skipped part may be the names of declarations, so uses of these names are not reported as unknown.
   for (const Token& token : in.tokens.skipFailed(level, first))
     if (token.kind == Tok::word) in.syntax.in_doubt.insert(in.build.addName(in.tokens.textOf(token)));
 }

@@ -17,7 +17,8 @@ namespace {
 struct DeclarationForm {
   std::string_view word;  ///< the word that starts the declaration
   void (*declare)(ParseContext&);
-  bool may_bound;  ///< if the declaration fails to parse, shapes may seem unbounded
+  /// true: the declaration may be what bounds shapes, so if it fails to parse, shapes may wrongly seem unbounded
+  bool may_bound;
 };
 
 constexpr std::array<DeclarationForm, 14> kForms = {{

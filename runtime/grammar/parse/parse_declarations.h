@@ -12,9 +12,9 @@ namespace sgm::parse {
 /// Parses any declaration, chosen by its first word; recovers after errors.
 void parseDeclaration(ParseContext& in);
 
-// parse_declarations.cpp
+// Defined in parse_declarations.cpp:
 
-/// The hint of the error that a declaration or clause, which is allowed only once, occurs twice.
+/// The hint of the error about a declaration or clause that occurs twice, but is allowed only once.
 inline constexpr const char* kRemoveOne = "remove one of them";
 
 /// Appends an item to ModuleSyntax::items, the declarations in source order. Does nothing in panic mode. begin: the
@@ -42,18 +42,18 @@ void declareLet(ParseContext& in);
 void declareField(ParseContext& in);
 void declareStart(ParseContext& in);
 
-// parse_domain.cpp
+// Defined in parse_domain.cpp:
 
 void declareDomain(ParseContext& in);
 void declareLayer(ParseContext& in);
 
-// parse_rules.cpp, parse_overrides.cpp
+// Defined in parse_rules.cpp and parse_overrides.cpp:
 
 void declareRule(ParseContext& in);
 void declareMorphicRule(ParseContext& in);
 void declareOverride(ParseContext& in);
 
-// parse_expectations.cpp
+// Defined in parse_expectations.cpp:
 
 void declareReport(ParseContext& in);
 void declareExpectation(ParseContext& in);

@@ -1,4 +1,4 @@
-// Parses report and expect: the statements of a grammar about its own world.
+// Parses the statements `report` and `expect`, with which a grammar requests or checks measures of its own world.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@ namespace sgm::parse {
 
 namespace {
 
-/// Parses the word of a measure. Returns false after an error.
+/// Parses the name of a measure (one of measureTable()). Returns false after an error.
 bool parseMeasure(TokenStream& tokens, Expectation& e) {
   const std::string_view measure = tokens.text();
   const std::span<const std::string_view> measures = measureTable();
@@ -30,7 +30,8 @@ bool parseMeasure(TokenStream& tokens, Expectation& e) {
   return true;
 }
 
-/// Parses the condition behind a measure: [ (air), (solid above EXPR) ] [ COMPARISON EXPR ].
+/// Parses the condition behind a measure: first, optionally, `(air)`, `(solid)` or one of these with `above EXPR` in
+/// the parentheses; then, optionally, a comparison operator with an EXPR.
 void parseCondition(ParseContext& in, Expectation& e) {
   TokenStream& tokens = in.tokens;
   if (tokens.accept(Tok::open_paren)) {
@@ -49,7 +50,8 @@ void parseCondition(ParseContext& in, Expectation& e) {
   e.value = parseExpression(in);
 }
 
-/// Parses (CELLS), behind the word `block`. Returns 0 after an error.
+/// Parses `(CELLS)` behind the word `block`, and returns this number, the size of a block in cells. Returns 0 after an
+/// error.
 int32_t parseBlockSize(TokenStream& tokens) {
   tokens.expect(Tok::open_paren, "`(`");
   const Token& cells = tokens.peek();

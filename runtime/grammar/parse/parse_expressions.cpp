@@ -196,7 +196,7 @@ ExprId parseUnary(ParseContext& in) {
   Nested nested(tokens);
   if (!nested.fits()) return kNoId;
   tokens.take();
-  // `not a < b` negates the comparison; a minus applies to the next operand.
+  // `not a < b` negates the whole comparison, whereas a minus applies only to the next operand.
   const ExprId operand = negation ? parseBinary(in, kComparison) : parseUnary(in);
   return addOperation(in, nodeOf(minus ? ExprKind::negate : ExprKind::logical_not), {operand}, begin);
 }

@@ -10,7 +10,7 @@
 
 namespace sgm::parse {
 
-/// The parts parsed so far, with the statement of each.
+/// The parts parsed so far: bodies[i] is the statement of the part nodes[i].
 struct Parts {
   std::vector<PartNode> nodes;
   std::vector<StmtId> bodies;

@@ -15,7 +15,7 @@ namespace {
 
 /// The syntax of a kind of statement.
 struct StmtForm {
-  std::string_view word;  ///< the word that starts it in a block; empty if it has none
+  std::string_view word;  ///< the word with which such a statement starts in a block; empty if there is no such word
   StmtId (*parse)(ParseContext&) = nullptr;
 };
 
@@ -88,8 +88,8 @@ constexpr StmtForm formOf(StmtKind kind) {
   return {};
 }
 
-/// Calls `visit(form)` for each kind of statement until it returns true, and returns that form; if it never does, an
-/// empty form, which marks the end of the kinds.
+/// Calls `visit(form)` for each kind of statement until a call returns true, and returns that form. Returns an empty
+/// form, as the end marker, if no call returns true.
 template <typename Visit>
 StmtForm findForm(const Visit& visit) {
   for (uint8_t kind = 0;; ++kind) {
@@ -98,7 +98,7 @@ StmtForm findForm(const Visit& visit) {
   }
 }
 
-/// Fails if the current word is a misspelt word that starts a statement.
+/// Fails if the current word is probably a misspelling of a word that starts a statement.
 void failIfMisspelt(TokenStream& tokens) {
   const Tok next = tokens.peek(1).kind;
   if (!tokens.at(Tok::word) || next == Tok::open_paren || next == Tok::semicolon || next == Tok::dot ||

@@ -8,7 +8,7 @@
 
 namespace sgm::parse {
 
-// parse_statements.cpp
+// Defined in parse_statements.cpp:
 
 /// Parses any statement, chosen by its first token.
 StmtId parseStatement(ParseContext& in);
@@ -34,7 +34,7 @@ StmtId parseTag(ParseContext& in);
 StmtId parseAnchor(ParseContext& in);
 StmtId parseDetail(ParseContext& in);
 
-// parse_transforms.cpp
+// Defined in parse_transforms.cpp:
 
 /// Whether the current token starts a transform.
 bool isAtTransform(const TokenStream& tokens);
@@ -45,19 +45,19 @@ StmtId parseScatter(ParseContext& in);
 StmtId parseDisplace(ParseContext& in);
 StmtId parseWarp(ParseContext& in);
 
-// parse_split.cpp, parse_treemap.cpp, parse_wfc.cpp
+// Defined in parse_split.cpp, parse_treemap.cpp and parse_wfc.cpp:
 
 StmtId parseSplit(ParseContext& in);
 StmtId parseSnap(ParseContext& in);
 StmtId parseComp(ParseContext& in);
 StmtId parseTreemap(ParseContext& in);
-/// Parses a link between two rooms, in a treemap.
+/// Parses the `link` statement of a `treemap`: a link between two rooms.
 StmtId parseLink(ParseContext& in);
 StmtId parseWfc(ParseContext& in);
-/// Parses the border, in a wfc.
+/// Parses the `border` statement of a `wfc`.
 StmtId parseBorder(ParseContext& in);
 
-// parse_profiles.cpp, parse_fit.cpp, parse_overrides.cpp
+// Defined in parse_profiles.cpp, parse_fit.cpp and parse_overrides.cpp:
 
 StmtId parseFootprint(ParseContext& in);
 StmtId parseExtrude(ParseContext& in);

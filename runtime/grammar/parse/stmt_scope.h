@@ -1,5 +1,5 @@
 #pragma once
-// The common frame of all statements that begin with a word of their own.
+// Code that the parsers of all statements with their own keyword share.
 
 #include <cstdint>
 #include <memory_resource>

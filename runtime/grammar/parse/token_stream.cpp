@@ -9,8 +9,8 @@ namespace sgm::parse {
 
 namespace {
 
-/// Returns a hint for a habit from another language, or an empty text. kind, word: of the token found instead of
-/// `wanted`; number: the text of a number directly before it, or empty.
+/// Returns a hint if the author seems to follow the syntax of another language; otherwise an empty text. kind, word: of
+/// the token found instead of `wanted`; number: the text of a number directly before it, or empty.
 std::string habitHint(std::string_view wanted, Tok kind, std::string_view word, std::string_view number) {
   if (!number.empty() && kind == Tok::word && isUnit(word))
     return join({"write the unit against its number, `", number, word, "`"});
@@ -173,7 +173,7 @@ void TokenStream::skip(Level level) {
       if (open == 0 && level == Level::statement) return;
       take();
       if (open <= 1) {
-        // In `{ ... };` and `} -> ...`, the text behind the '}' belongs to the skipped part.
+        // A ';' directly behind the '}', as in `{ ... };`, belongs to the skipped part.
         accept(Tok::semicolon);
         return;
       }

@@ -36,7 +36,7 @@ class TokenStream {
   const Token& take();
   bool at(Tok kind) const { return peek().kind == kind; }
   bool atWord(std::string_view word) const;
-  /// Take the current token if it has this kind or text. Return whether it did.
+  /// If the current token has this kind or text, takes it and returns true. Otherwise returns false.
   bool accept(Tok kind);
   bool acceptWord(std::string_view word);
   /// Like accept(), but any other token is an error; its message calls the missing token `what`.
@@ -72,9 +72,9 @@ class TokenStream {
   bool isExhausted() const { return exhausted_; }
   /// Whether parsing may continue after an error: the stream is not exhausted, and the limit of errors is not reached.
   bool canContinue() const { return !exhausted_ && !sink_.full(); }
-  /// Ends panic mode and skips the part with the error: to behind the next ';', to the '}' of the enclosing block, or
-  /// to behind a block that opened after the error. At Level::declaration the skipping also stops at a declaration's
-  /// first word at the start of a line. Returns the skipped tokens from the index `first` on.
+  /// Ends panic mode and skips the part with the error. The skipped part ends with the next ';', before the '}' of the
+  /// enclosing block, or with a block that opened after the error. At Level::declaration it also ends before a
+  /// declaration's first word at the start of a line. Returns the skipped tokens from the index `first` on.
   std::span<const Token> skipFailed(Level level, size_t first);
 
  private:

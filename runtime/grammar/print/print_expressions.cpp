@@ -101,8 +101,8 @@ void LinePrinter::expr(std::string& out, ExprId id, int lowest) const {
         out += '.';
       }
       out += program_.text(node.name);
-      // A call of a rule without arguments is written without parentheses; a let or function without them would not be
-      // a call.
+      // A call of a rule without arguments is written without parentheses. Calls of lets and functions keep theirs,
+      // since without them they would be plain names.
       if (node.args.count > 0 || !node.shape) args(out, node.args, program_.text(node.name));
       break;
     case ExprKind::query:

@@ -23,7 +23,7 @@ class LinePrinter {
   void xforms(std::string& out, IdRange range) const;
   /// Prints a statement up to its body, without a trailing space; a statement without a body is printed completely.
   void head(std::string& out, const StmtNode& node) const;
-  /// Prints what precedes the statement of part i of a split, a comp, a treemap or a wfc, with a trailing space.
+  /// Prints part i of a split, a comp, a treemap or a wfc up to its statement, with a trailing space.
   void part(std::string& out, const StmtNode& node, uint32_t i) const;
   /// Whether a repeated group of parts begins before part i (opensGroup) or ends after it (closesGroup).
   bool opensGroup(const StmtNode& node, uint32_t i) const;

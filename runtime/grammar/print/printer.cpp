@@ -13,7 +13,7 @@ namespace sgm {
 namespace {
 
 constexpr size_t kWidth = 110;
-// maximum length in bytes of a source text for which one line is tried; bounds the work
+// length in bytes of the longest source text that the printer tries to print on one line; bounds the work
 constexpr uint32_t kLongestInline = 400;
 
 void measureText(std::string& out, const Program& program, const LinePrinter& line, const Expectation& e) {
@@ -40,7 +40,8 @@ void measureText(std::string& out, const Program& program, const LinePrinter& li
   if (e.per_name != kNoId) out += join({" per ", program.text(e.per_name)});
 }
 
-/// Prints the part of a parameter's declaration that affects the world; the rest concerns only the host application.
+/// Prints those parts of a `param` declaration that affect the world. The other parts concern only the host
+/// application.
 void paramMeaning(std::string& out, const Program& program, const LinePrinter& line, const Param& param) {
   out += join({"param ", program.text(param.name), " = "});
   line.expr(out, param.value_expr);

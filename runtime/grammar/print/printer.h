@@ -14,7 +14,7 @@ std::string printModule(const Program& program, const ModuleSyntax& syntax);
 
 /// Prints a file as one line that is equal for files of equal meaning: without comments and redundant parentheses,
 /// numbers by value. Tests compare hashMeaning (identity/hash_meaning.h) with it; version 0.2 identified programs by
-/// its hash.
+/// the hash of this line.
 std::string printMeaning(const Program& program, const ModuleSyntax& syntax);
 
 /// "watertight", "components", ...

@@ -14,7 +14,8 @@ namespace sgm {
 
 namespace {
 
-constexpr double kWidening = 1e-9;  ///< relative tolerance, because computed intervals are wider than the exact ranges
+/// relative tolerance of comparisons with a range, because interval arithmetic widens the possible values slightly
+constexpr double kWidening = 1e-9;
 
 /// A unit as written after a number.
 struct Unit {
@@ -23,8 +24,8 @@ struct Unit {
   double value;
 };
 
-/// All units of numbers. If the ends of a range do not have the same unit, messages use the first unit of their
-/// dimension.
+/// All units that a number can be written with. If the two ends of a range have different units, messages show the
+/// range in the first unit listed here for their dimension.
 constexpr Unit kUnits[] = {{"m", kLength, 1},     {"cm", kLength, 0.01},      {"mm", kLength, 0.001},
                            {"km", kLength, 1000}, {"deg", kAngle, kPi / 180}, {"rad", kAngle, 1},
                            {"m2", kArea, 1},      {"m3", kVolume, 1},         {"", kRatio, 1},
@@ -35,12 +36,13 @@ std::string_view sourceText(const Program& program, ExprId id) {
   return std::string_view(program.modules[span.file].text).substr(span.begin, span.end - span.begin);
 }
 
-/// Returns the unit in the text of a number: what follows the digits.
+/// Returns the unit in the text of a number: the part behind the digits.
 std::string_view unitName(std::string_view number) {
   return number.substr(std::min(number.find_last_of("0123456789.)") + 1, number.size()));
 }
 
-/// Returns the unit that both ends of a range are written in; otherwise the first unit of their dimension.
+/// Returns the unit of both ends of a range, if they have the same unit in the text; otherwise the first unit of their
+/// dimension.
 Unit unitOf(const Program& program, const FormalNode& formal) {
   const std::string_view name = unitName(sourceText(program, formal.high_expr));
   const bool both = unitName(sourceText(program, formal.low_expr)) == name;
@@ -53,7 +55,8 @@ Unit unitOf(const Program& program, const FormalNode& formal) {
   return first != nullptr ? *first : Unit{"", formal.dim, 1};
 }
 
-/// Formats a value outside of the range for a message: with six digits, unless rounding would bring it into the range.
+/// Formats a value for the message that it is outside of the range. It has six digits, or more if rounding to six
+/// digits would bring it into the range.
 std::string valueText(double value, const FormalNode& formal, const Unit& unit) {
   const double exact = value / unit.value;
   char digits[40];
@@ -129,8 +132,9 @@ void Misfits::compare(const Program& program, ExprId id, IdRange formals, std::s
     const std::pair key(argument, caller);
     if (loose_ > 0 && !certain) loosely_fitting_.insert(key);
     if (value.lo >= low && value.hi <= high) continue;
-    // An argument that may lie outside, but does not certainly, is not reported if its range is unbounded or
-    // overestimated, or if the standard library computes it, since the author cannot bound it.
+    // Report an argument only if it is certainly outside of its range, or possibly outside with known bounds. Do not
+    // report a possible violation if the bounds are overestimated, or if the call is in the standard library, where the
+    // author cannot limit the argument.
     if (!certain && (loose_ > 0 || !value.bounded() || caller != kNoId)) continue;
     const Misfit misfit{argument, id, caller, formals.first + i, value, certain, loose_ > 0};
     const auto known = std::find_if(misfits_.begin(), misfits_.end(),
@@ -150,8 +154,8 @@ std::vector<Misfit> Misfits::take() {
   std::set<ExprId> callers;
   for (const Misfit& misfit : misfits_) {
     if (misfit.loose && loosely_fitting_.contains({misfit.argument, misfit.caller})) continue;
-    // Misfits within the library have a common cause, the arguments of the author's call, so only one is reported for
-    // each call into the library.
+    // A call into the standard library may cause several misfits inside the library. They have a common cause, the
+    // arguments of that call, so only the first one is reported.
     if (misfit.caller == kNoId || callers.insert(misfit.caller).second) out.push_back(misfit);
   }
   misfits_.clear();

@@ -22,7 +22,7 @@ struct Misfit {
   ExprId caller = kNoId;
   uint32_t formal = 0;   ///< index of the parameter in Ast::formals
   Interval given;        ///< the possible values of the argument
-  bool certain = false;  ///< no possible value lies within the range, which is an error; otherwise a warning
+  bool certain = false;  ///< true: no possible value lies within the range (an error); false: some do (a warning)
   bool loose = false;    ///< found while scope sizes were overestimated, so `given` may be too wide
 };
 
@@ -35,20 +35,20 @@ class Misfits {
   /// bound arguments. calls: the calls that enclose this one.
   void compare(const Program& program, ExprId call, IdRange formals, std::span<const RangeValue> given,
                const CallPath& calls);
-  /// Mark that scope sizes are overestimated, or that a range is evaluated in pieces. Meanwhile an argument that may
-  /// lie outside is ignored, and one that certainly lies outside counts only if it does so in all pieces. Pairs of
-  /// calls may be nested.
+  /// enterLoose() begins a phase in which scope sizes are overestimated, or a range is evaluated in pieces;
+  /// leaveLoose() ends it. Phases may be nested. In such a phase, an argument that only possibly lies outside its
+  /// parameter's range is ignored. An argument that certainly lies outside counts only if it does so in all pieces.
   void enterLoose() { ++loose_; }
   void leaveLoose() { --loose_; }
-  /// Returns and clears the misfits; one for each argument, or, within the standard library, for each of the library's
-  /// callers.
+  /// Returns and clears the misfits: one for each argument; for calls within the standard library, one for each call
+  /// from outside into the library.
   std::vector<Misfit> take();
 
  private:
   bool compares_ = false;
   int loose_ = 0;
   std::vector<Misfit> misfits_;  ///< at most one for each argument and caller
-  /// arguments (with their callers) that fit for some piece or overestimated scope
+  /// arguments (with Misfit::caller) that may be within the range for some piece, or in some overestimated scope
   std::set<std::pair<ExprId, ExprId>> loosely_fitting_;
 };
 
@@ -56,8 +56,9 @@ class Misfits {
 /// warnings.
 void reportMisfits(const Program& program, std::span<const Misfit> misfits, DiagnosticSink& sink);
 
-/// Checks the arguments of every call, even if no derivation can reach it, against the ranges of a rule, let or field,
-/// as far as the arguments do not depend on the frame. checkReach() checks the rest, where the frame is known.
+/// Checks the arguments of every call of a rule, let or field against the declared ranges, even if no derivation can
+/// reach the call. Only arguments that do not depend on the frame are checked; checkReach(), which knows the frames,
+/// checks the others.
 void checkRanges(const Program& program, const CompileLimits& limits, DiagnosticSink& sink);
 
 }  // namespace sgm

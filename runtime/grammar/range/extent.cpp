@@ -18,9 +18,9 @@ double boxRadius(const IntervalVector& box) {
 }
 
 /// Returns the amplitude below which a displacement of a sum of at most `count` shapes stays bounded. Far from its
-/// leaves the sum's field is constant: the kernel's threshold divided by the kernel's slope at the largest leaf; a
-/// larger displacement would cancel it everywhere. The reserve for rounding grows with the number of shapes, as in
-/// derive/bounds.cpp.
+/// leaves, the sum's field has a constant value: the kernel's threshold divided by the kernel's slope at the largest
+/// leaf. A larger displacement could make the field negative there, so that the shape would fill all space. The reserve
+/// for rounding grows with the number of shapes, as in derive/bounds.cpp.
 double sumLimit(double inner, double count) {
   constexpr double kInverse = 1 / (kSupport * kSupport), kBase = 1 - kInverse;
   const double left = kBase * kBase * kBase - 1e-6 * (count + 1);
@@ -220,7 +220,7 @@ void Extent::intersect(const Extent& other) {
     // let the operands meet there.
     if (both[i].lo > both[i].hi) both[i] = {both[i].hi, both[i].lo};
   }
-  // In rotated scopes the boxes of operands cannot be intersected, so the smaller of the two hulls is used.
+  // For rotated scopes, the cores of the two operands cannot be intersected, so the smaller of the two hulls is used.
   if (other.at.core_radius + other.at.ball < at.core_radius + at.ball) {
     at = other.at;
     turned_spread = other.turned_spread;
@@ -249,8 +249,8 @@ void Extent::grow(double margin) {
 }
 
 void Extent::smooth(double radius) {
-  // Where both operands are farther away than the blend radius, a smooth union equals a sharp one, so a limit beyond
-  // the radius stays as it is.
+  // A limit beyond the blend radius stays as it is: where both operands are farther away than the radius, a smooth
+  // union equals a sharp one.
   const double before = limit;
   grow(radius);
   if (radius < before) limit = before;
@@ -334,7 +334,7 @@ void Extent::repeat(Interval times) {
 void Extent::summed() {
   if (empty) return;
   at = in_sum;
-  // Level sets of a sum, below the limit, do not extend beyond the kernels.
+  // `at` now bounds the kernels. Below the limit, the level sets of a sum do not extend beyond its kernels.
   spread = turned_spread = 0;
   limit = sumLimit(inner_low, count);
   count = 1;

@@ -11,25 +11,25 @@
 
 namespace sgm {
 
-/// Why a displacement has no bound although its amplitude has one.
+/// The reason why a displaced shape has no bound although the amplitude of the displacement has one.
 enum class Unbound : uint8_t {
   none,
   sum,     ///< far from its leaves a sum's field is a constant, which the displacement may cancel completely
   radius,  ///< the smallest radius of an ellipsoid or superquadric may be arbitrarily small
 };
 
-/// A bound of shapes in any orientation: the box `may`, and the set of points within the distance `ball` from the box
-/// `core`.
+/// Two bounds of the same shapes: the box `may`, and all points within the distance `ball` of the box `core`. The
+/// second bound stays tight when the shapes are rotated.
 struct Hull {
   IntervalVector may{};
   IntervalVector core{};
-  double core_radius = 0;  ///< the largest distance of a point of the core from the scope's origin, metres
-  double ball = 0;         ///< radius of the ball around each point of the core, metres
+  double core_radius = 0;  ///< largest distance of a point of the box `core` from the scope's origin, metres
+  double ball = 0;         ///< distance from the box `core` within which the shapes lie, metres
 
   static Hull everywhere();
   void merge(const Hull& other);
   void grow(double margin, double turned_margin);
-  void add(const IntervalVector& by);  ///< moves every point by some vector in `by`
+  void add(const IntervalVector& by);  ///< moves the bounds by all vectors in `by`
   void rotate(int axis, Interval angle);
   void scale(Interval factor);
   void mirror(size_t axis);
@@ -37,8 +37,8 @@ struct Hull {
 
 /// Bounds of the shapes that a statement may derive, in the statement's scope, in metres.
 ///
-/// Level sets: the region where the field is at most `a` lies within `at` grown by spread * a (in rotated scopes: by
-/// turned_spread * a), for all a < limit.
+/// Level sets: for all a < limit, the region where the field is at most `a` lies within `at` grown by spread * a (in
+/// rotated scopes: by turned_spread * a).
 struct Extent {
   bool empty = true;
   Hull at;      ///< bounds all shapes; for an intersection (meet) of disjoint operands: the gap between them
@@ -48,8 +48,11 @@ struct Extent {
   /// if anything is derived, some shape certainly extends at least this far in each direction
   std::array<double, 3> sure_lo{}, sure_hi{};
 
-  double inner = 0;  ///< the largest inner radius of the leaves; a sum extends beyond its leaves in proportion to it
-  double inner_low = 0;  ///< lower bound of the largest inner radius; valid if the extent is not empty
+  /// the largest inner radius of the leaves; the distance by which a sum extends beyond its leaves is proportional to
+  /// it
+  double inner = 0;
+  /// lower bound of the largest inner radius of the derived leaves; meaningless if the extent is empty
+  double inner_low = 0;
   double count = 0;      ///< upper bound of the number of shapes
   bool certain = false;  ///< at least one shape is certainly derived
 
@@ -71,14 +74,14 @@ struct Extent {
   /// origin that contains the leaf, or 0.
   static Extent leaf(const IntervalVector& lower, const IntervalVector& upper, double ball = 0);
 
-  void join(const Extent& other);    ///< adds the extent of another statement; both statements are derived
-  void either(const Extent& other);  ///< adds an alternative; exactly one of the two is derived
+  void join(const Extent& other);    ///< adds the extent of another statement, which is derived in addition
+  void either(const Extent& other);  ///< adds an alternative: exactly one of the two extents is derived
   void intersect(const Extent& other);
-  void grow(double margin);    ///< grows the bounds for a field change of at most `margin`
-  void smooth(double radius);  ///< grows the bounds for a smooth union with this blend radius
+  void grow(double margin);    ///< grows the bounds, so that they hold if the field changes by at most `margin`
+  void smooth(double radius);  ///< grows the bounds, so that they hold after a smooth union with this blend radius
   void add(const IntervalVector& by);
-  void node();                     ///< combines all shapes into one shape (one node)
-  void uncertain();                ///< marks that parts of the content may be cut away
+  void node();                     ///< treats all shapes as one shape, such as the result of a blend
+  void uncertain();                ///< marks all shapes as uncertain: any part of the content may be cut away
   void shrinkSure(double margin);  ///< like uncertain(), but shapes lose at most `margin` on each side
   void move(const IntervalVector& by);
   void rotate(int axis, Interval angle);  ///< axis: 0, 1 or 2; 3: an arbitrary axis
@@ -96,8 +99,8 @@ struct Extent {
   void loseBound(Unbound reason);
 };
 
-/// Adds one of several alternatives of which exactly one is derived, by Extent::either(). all: nullopt before the first
-/// call.
+/// Adds an alternative to `all`, by Extent::either(): of all added alternatives, exactly one is derived. all: nullopt
+/// before the first call.
 void addAlternative(std::optional<Extent>& all, const Extent& one);
 
 /// Returns the range of a written scale factor, limited to positive values: derivation omits content with other

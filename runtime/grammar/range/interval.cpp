@@ -81,7 +81,7 @@ Interval power(Interval a, Interval b) {
 }
 
 Interval smoothStep(Interval low, Interval high, Interval x) {
-  // For unknown edges or an unbounded x, the result is the full range 0..1.
+  // If the step's edges are equal or not known exactly, or if x is unbounded, return the full range 0..1.
   if (!low.exact() || !high.exact() || low.lo == high.lo || !x.bounded()) return {0, 1};
   auto at = [&](double v) {
     const double t = std::clamp((v - low.lo) / (high.lo - low.lo), 0.0, 1.0);

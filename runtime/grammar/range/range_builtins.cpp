@@ -80,8 +80,8 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
     case Builtin::mix: {
       const Interval a = in(0), b = in(1), t = in(2);
       const Interval line = a + (b - a) * t, both = hull(a, b);
-      // For t in 0..1 the value lies between the ends, however a and b are correlated; if t is known exactly, `line` is
-      // tighter.
+      // For t in 0..1 the result lies between a and b (`both`), however a and b are correlated. If t is known exactly,
+      // `line` is tighter. So intersect both intervals.
       if (t.lo >= 0 && t.hi <= 1) return RangeValue::number({std::max(line.lo, both.lo), std::min(line.hi, both.hi)});
       return RangeValue::number(line);
     }
@@ -131,7 +131,8 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
       jitter = minimum(maximum(jitter, {0, 0}), {1, 1});
       const double half = jitter.hi / 2;
       Interval spread{0.5 - half, 0.5 + half};
-      // A point of a face lies, along one unknown axis, at the border between the face's cells.
+      // A point of a face has the share 1 (the border between the face's two cells) along the face's axis. This axis is
+      // not known here, so the interval of every axis is extended to 1.
       if (of.kind == ValueKind::face) spread.hi = 1;
       return point({of.v[0] + spread, of.v[1] + spread, of.v[2] + spread}, frame);
     }

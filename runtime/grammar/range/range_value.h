@@ -10,10 +10,10 @@
 
 namespace sgm {
 
-/// The possible values of an expression. The meaning of v depends on kind: number, boolean: v[0]. vector, pair:
-/// components. cell: its offset from the derived cell, in cells; face: that of its lower cell. segment(s): v[0]
-/// contains all coordinates of the ends, v[1] the depth. plan: v contains the edges of its pieces' boxes, `at` the
-/// pieces' centres.
+/// The possible values of an expression. The content of v depends on kind. number, boolean: the value in v[0]; vector,
+/// pair: the components; cell: the offset from the derived cell, in cells; face: the offset of its lower cell;
+/// segment(s): all coordinates of the ends in v[0], the depth in v[1]; plan: the edges of the boxes of its pieces,
+/// whose centres are in `at`.
 struct RangeValue {
   ValueKind kind = ValueKind::unknown;
   IntervalVector v{Interval::everything(), Interval::everything(), Interval::everything()};
@@ -42,7 +42,7 @@ struct PlaceRange {
 /// The context in which a statement's or function's expressions are evaluated.
 struct RangeFrame {
   std::vector<RangeValue> slots;
-  IntervalVector scope{};  ///< edges of the scope's box
+  IntervalVector scope{};  ///< ranges of the edge lengths of the scope's box
   PlaceRange place;        ///< place of the current statement's scope
   PlaceRange start;        ///< place of the scope with which the enclosing rule starts
   bool top = false;        ///< the statement is directly in a layer's start rule, where a cut removes from the domain
@@ -57,7 +57,7 @@ bool hasPieces(const RangeValue& value);
 /// sizes), otherwise the middle.
 double dividingPoint(Interval range);
 
-/// Returns a box that contains all vectors, in any direction, with the length of some vector in `v`.
+/// Returns a box that contains every vector in `v` after any rotation.
 IntervalVector anyDirection(const IntervalVector& v);
 
 }  // namespace sgm

@@ -11,8 +11,9 @@ namespace sgm {
 namespace {
 
 constexpr Interval kHalf{0.5, 0.5};
-constexpr double kLargestSize = 1e5;  ///< metres; a larger shape may, once scaled, exceed the largest size that is
-                                      ///< derived
+/// Size in metres up to which a shape counts as certainly derived. Once scaled, a larger shape may exceed the largest
+/// size that derivation accepts, and is then omitted.
+constexpr double kLargestSize = 1e5;
 
 /// Computes the extent of one call of a primitive.
 class Terminal {
@@ -180,7 +181,7 @@ Extent Terminal::extent() {
     }
     case Primitive::capsule:
       return around(positivePart(in(2)), positivePart(in(2)).hi, true);
-    // Tubes and beams are left out if their ends coincide, so they are not certain.
+    // Derivation leaves out a tube or a beam whose ends coincide, so the shape is not certainly derived.
     case Primitive::tube:
       return around(positivePart(in(2)), positivePart(in(2)).hi + positivePart(in(3)).hi, false);
     // A corner of the square end section lies r beyond the end along the axis, and r off the axis in both directions

@@ -70,7 +70,7 @@ RangeValue RangeEvaluator::evaluate(ExprId id, const RangeFrame& frame) {
   const uint32_t before = losses_.takeLatest();
   RangeValue out = evaluateNode(id, frame);
   const uint32_t inside = losses_.takeLatest();
-  // A bounded value has no loss, even if its operands have one.
+  // `loss` names the expression that made the value unbounded. So a bounded value has none, even if an operand has one.
   if (out.bounded())
     out.loss = 0;
   else if (out.loss == 0)
@@ -286,7 +286,7 @@ void RangeEvaluator::refine(ExprId id, bool holds, RangeFrame& frame) {
       continue;
     const Interval other = number(child(n, 1 - side), frame);
     const bool less = n.binary == BinaryOp::less || n.binary == BinaryOp::less_equal;
-    const bool below = (less == (side == 0)) == holds;  // whether the condition bounds the local from above
+    const bool below = (less == (side == 0)) == holds;  // true: the condition bounds the local from above
     Interval& value = frame.slots[local.id].v[0];
     if (below && other.hi < value.hi) value.hi = std::max(other.hi, value.lo);
     if (!below && other.lo > value.lo) value.lo = std::min(other.lo, value.hi);

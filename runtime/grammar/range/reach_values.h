@@ -31,8 +31,8 @@ struct Dependence {
 /// evaluations depended on.
 class RangeEvaluator {
  public:
-  /// steps: the caller's remaining budget. Each evaluation decrements it; at 0 every value is unknown. It must outlive
-  /// this object.
+  /// steps: the caller's variable with the remaining budget, which must outlive this object. Each evaluation decrements
+  /// it; at 0 every value is unknown.
   RangeEvaluator(const Program& program, uint32_t& steps);
 
   /// Sets the edges of a cell, metres. centred: the origin of the start rule's scope is the cell's centre, otherwise
@@ -43,25 +43,26 @@ class RangeEvaluator {
   }
   /// The possible values of Program::params[index]; initially the parameter's whole range.
   Interval& parameter(uint32_t index) { return parameters_[index]; }
-  /// Sets whether functions without a bound are evaluated again in pieces of their arguments' ranges.
+  /// Sets whether a function call whose value has no bound is evaluated again, once for each piece of an argument's
+  /// range.
   void takePieces(bool takes) { pieces_ = takes; }
 
   RangeValue evaluate(ExprId id, const RangeFrame& frame);
   Interval number(ExprId id, const RangeFrame& frame);
   IntervalVector vector(ExprId id, const RangeFrame& frame);
-  /// [0, 0]: false, [1, 1]: true, otherwise either.
+  /// Returns [0, 0] if the condition is certainly false, [1, 1] if it is certainly true, otherwise a wider range.
   Interval condition(ExprId id, const RangeFrame& frame);
 
   /// Narrows the slots of a frame to the values for which a condition is true (or false, if `holds` is false).
   /// Understands comparisons of a local with a value, joined by `and` (for false: by `or`).
   void refine(ExprId condition, bool holds, RangeFrame& frame);
-  /// Compares the arguments of a call with the ranges of its formals (Misfits::compare), unless a range is evaluated in
-  /// pieces. given: value ranges of the bound arguments.
+  /// Compares the arguments of a call with the ranges of its formals (Misfits::compare). Does nothing while
+  /// takePieces(true) is in effect. given: value ranges of the bound arguments.
   void compareArguments(ExprId call, IdRange formals, std::span<const RangeValue> given);
 
   /// The parts of the rule's frame on which the results since the last reset depend. The caller resets it.
   Dependence& dependence() { return dependence_; }
-  /// The farthest query since the last reset. The caller resets it.
+  /// The query since the last reset that looked farthest out of the cell. The caller resets it by assignment.
   Observation& observation() { return observation_; }
   const std::vector<bool>& usedParameters() const { return used_parameters_; }
   CallPath& calls() { return calls_; }
@@ -80,8 +81,8 @@ class RangeEvaluator {
   /// no bound.
   std::optional<RangeValue> inPieces(ExprId body, RangeFrame& frame, uint32_t slot, Interval range, int depth);
   RangeValue member(const ExprNode& n, const RangeFrame& frame);
-  /// Returns the place of a cell's point (metres from the cell's low corner) relative to the scope with which the rule
-  /// starts.
+  /// Returns the position of a point relative to the scope with which the rule starts. from_cell: the point in metres
+  /// from the cell's low corner.
   RangeValue point(const IntervalVector& from_cell, const RangeFrame& frame);
   uint32_t child(const ExprNode& n, uint32_t i) const { return program_.idAt(n.children, i); }
 

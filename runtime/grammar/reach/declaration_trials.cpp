@@ -18,7 +18,8 @@ double wholeMetres(double metres) { return std::ceil(metres - 1e-9); }
 
 std::string lengthText(double metres) { return join({numberText(metres), "m"}); }
 
-/// Returns the edges of the box, or of the cell, to try next, metres. needed: the reach that the shapes need.
+/// Returns the edges, in metres, that should be tried next for the domain's box or the layer's cell. needed: the reach
+/// that the shapes need.
 std::array<double, 3> nextEdges(const Layer& layer, const Extent& tried, double needed, const ReachContext& context) {
   const IntBox& box = context.program.domain.box;
   const bool finite = isFinite(context.program, layer);
@@ -84,7 +85,7 @@ std::string findRoom(uint32_t index, const Extent& extent, ReachContext& context
   if (!finite && needed <= cellEdge(layer) * context.limits.neighbours)
     return join({"raise reach to ", metresText(needed), " or make the shape smaller"});
 
-  // The step is repeated, since the extent of the shapes may depend on the cell or the box itself.
+  // Several trials may be needed, since a new cell or box may change the extent of the shapes.
   const TrialDeclaration trials(index, context);
   Extent tried = extent;
   for (int trial = 0; trial < kMaxTrials && !tried.lost(); ++trial) {

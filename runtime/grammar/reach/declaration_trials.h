@@ -10,7 +10,8 @@
 
 namespace sgm::reach {
 
-/// Saves a layer's and the domain's declaration while other values are tried; the destructor restores them.
+/// Keeps the original declarations of a layer and of the domain while other values are tried in their place; the
+/// destructor restores the originals.
 class TrialDeclaration {
  public:
   /// index: into Program::layers. The context must outlive this object.
@@ -27,12 +28,12 @@ class TrialDeclaration {
   const IntBox box_;
 };
 
-/// Whether the shapes of a finite grammar have a bound only if the domain declares a box, since without a box the
-/// start's scope is unbounded.
+/// True if the grammar is finite, and its shapes have a bound only if the domain declares a box: without a box, the
+/// scope of the start rule is unbounded.
 bool needsBox(uint32_t index, ReachContext& context);
 
-/// Returns a hint with a declaration in which all shapes of the layer fit; empty if no trial finds one. extent: must be
-/// bounded; the extent of the shapes that exceed the written declaration.
+/// Returns a hint with a declaration in which all shapes of the layer fit; empty if no trial finds one. extent: the
+/// extent of the shapes, which exceeds the declaration in the grammar; must be bounded.
 std::string findRoom(uint32_t index, const Extent& extent, ReachContext& context);
 
 }  // namespace sgm::reach

@@ -19,11 +19,13 @@ class DerivedHeads {
   /// Precondition: addRule().
   void addHead(uint32_t rule, size_t head) { derived_[rule][head] = true; }
 
-  /// Warns of heads of the root's used rules that can never be chosen, whatever values the parameters have.
+  /// Warns of rule heads in the root file that can never be chosen, whatever values the parameters have. Ignores rules
+  /// that are not used.
   void warnOfIdle(const Program& program, DiagnosticSink& sink) const;
 
  private:
-  std::vector<std::vector<bool>> derived_;  ///< by rule and head; empty for rules that are not used
+  /// by rule and head: whether the head may be derived; empty for rules that are not used
+  std::vector<std::vector<bool>> derived_;
 };
 
 }  // namespace sgm::reach

@@ -4,7 +4,7 @@
 
 namespace sgm::reach {
 
-/// Restores a frame's scope and place at the end of its lifetime.
+/// Saves a frame's scope and place when it is constructed, and restores them when it is destroyed.
 class KeptScope {
  public:
   /// The frame must outlive this object.

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kFarthest = 1e6;  ///< maximum extent in metres of a finite domain without a declared box
 
-/// Computes the extent in pieces of the range of each parameter of the grammar.
+/// Computes the extent of the layer's start rule. If possible, divides the range of one of the grammar's parameters
+/// into pieces, and returns the union of the extents for these pieces.
 Extent boundOverParameters(uint32_t index, ReachContext& context) {
   RangeEvaluator& values = context.values;
   const Extent whole = boundStart(index, context);

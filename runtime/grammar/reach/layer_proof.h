@@ -8,7 +8,8 @@
 
 namespace sgm::reach {
 
-/// The distances in metres by which shapes exceed their layer's declaration: `may`, possibly; `sure`, certainly.
+/// The distances in metres by which shapes exceed their layer's declaration. may: they possibly exceed it by this
+/// distance; sure: they certainly exceed it by this distance.
 struct Excess {
   double may = 0, sure = 0;
 };
@@ -26,11 +27,11 @@ Excess measureExcess(const Program& program, const Layer& layer, const Extent& e
 /// succeeds. Always false if the step budget cut the attempt short.
 bool isEnough(const Layer& layer, const Extent& extent, const ReachContext& context);
 
-/// Computes the extent of a layer's start by one evaluation, with the current RangePieces mode. index: into
-/// Program::layers.
+/// Computes the extent of a layer's start rule by a single evaluation, in the current RangePieces mode. index: index of
+/// the layer in Program::layers.
 Extent boundStart(uint32_t index, ReachContext& context);
-/// Like boundStart(), but makes several attempts until an extent lies within what the layer declares; the last attempts
-/// evaluate ranges in pieces.
+/// Like boundStart(), but makes several attempts until an extent lies within what the layer declares. The last attempts
+/// evaluate ranges of values in pieces.
 Extent proveStart(uint32_t index, ReachContext& context);
 
 }  // namespace sgm::reach

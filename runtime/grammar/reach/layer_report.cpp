@@ -36,8 +36,10 @@ std::string_view readText(const Program& program, ExprId id) {
   return std::string_view(program.modules[span.file].text).substr(span.begin, span.end - span.begin);
 }
 
-/// Returns the extents of those calls in the layer's own rule that exceed the declaration by themselves. If the step
-/// budget ends early, a later run reports the other calls.
+/// Examines the calls in the layer's own rule one by one. Returns the extents of the calls that by themselves are not
+/// proven to stay within what the layer declares. Omits calls after the first kMaxParts, and calls for which the step
+/// budget does not suffice; a later run of the compiler reports these. Returns an empty list if the rule has only one
+/// call.
 std::vector<Extent> boundCallsOneByOne(uint32_t index, ReachContext& context) {
   const Layer& layer = context.program.layers[index];
   context.start_calls.beginCollecting();
@@ -66,8 +68,8 @@ void LayerReport::report(const Extent& extent) const {
   const Excess over = measureExcess(program_, layer_, extent);
   const std::string name = join({"`", program_.text(layer_.name), "`"});
   const double reach = layer_.reach * kUnit;
-  // For a finite domain with a box, the excess is measured from the box; for a layer, the extent is measured from its
-  // cell.
+  // The message states how far the shapes extend. In a finite domain with a declared box, it measures from the box; in
+  // a finite domain without one, from the domain's origin; in any other domain, from the layer's cell.
   const std::string extends =
       unbounded ? "without bound" : metresText(finite && !boxed ? extent.size() : over.may + (finite ? 0 : reach));
   const std::string from = finite ? (boxed       ? " beyond the domain's box"
@@ -77,13 +79,15 @@ void LayerReport::report(const Extent& extent) const {
   const std::string limit = finite ? "" : join({", layer ", name, " declares reach ", metresText(reach)});
   std::string message = join({shape, " may extend ", extends, from, limit});
   if (!unbounded && over.sure <= 0 && (!finite || boxed)) {
-    if (context_.lossy) return;  // a part of the text that failed to parse may bound the shapes
+    if (context_.lossy)
+      return;  // no warning: a part of the text that failed to parse may have kept the shapes within
+               // the reach
     context_.sink.warning(span, codes::kReachMaybe, std::move(message), "shapes that go farther are left out whole");
     return;
   }
   const BoundLoss* loss = nullptr;
-  // The expression that lost its bound is named only if the hint is about it, so that message and hint describe the
-  // same cause.
+  // Names the expression that has no bound only if the hint is about the same expression. Otherwise the message and its
+  // hint would describe different causes.
   if (unbounded && !cut_short && extent.loss != 0 &&
       boundHint(extent) == lossHint(context_.values.losses()[extent.loss]))
     loss = &context_.values.losses()[extent.loss];
@@ -157,7 +161,7 @@ void reportLayer(uint32_t index, const Extent& extent, ReachContext& context) {
   std::vector<Extent> parts;
   if (!budget.isCutShort()) parts = boundCallsOneByOne(index, context);
   if (parts.empty()) parts.push_back(extent);
-  // Suggest one declaration in which all bounded calls fit.
+  // Suggest a single declaration that is large enough for all calls whose extents have a bound.
   Extent bounded = Extent::nothing();
   for (const Extent& part : parts)
     if (!part.lost()) bounded.join(part);

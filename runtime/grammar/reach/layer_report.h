@@ -29,7 +29,7 @@ class LayerReport {
   };
   Contributor describeContributor(const Extent& extent) const;
   ExprId divisor(const BoundLoss& loss) const;
-  /// Explains a lost bound, as the end of a message.
+  /// Returns the end of a message: the reason why a value has no bound.
   std::string lossText(const BoundLoss& loss) const;
   std::string lossHint(const BoundLoss& loss) const;
   /// The hint for shapes without a bound.
@@ -42,8 +42,8 @@ class LayerReport {
   const Program& program_;
 };
 
-/// Reports each call in the layer's own rule that exceeds the declaration by itself, all in one run. extent: of all
-/// calls together. index: into Program::layers.
+/// Reports all calls in the layer's own rule that exceed the layer's declaration by themselves, so that one run of the
+/// compiler shows all of them. extent: the extent of all calls together. index: index into Program::layers.
 void reportLayer(uint32_t index, const Extent& extent, ReachContext& context);
 
 /// Reports the query that looks farthest if it may look beyond the layer's reach: a cell must depend only on content

@@ -16,7 +16,8 @@ std::vector<uint32_t> listIds(const Program& program, IdRange range) {
   return out;
 }
 
-/// Whether both overrides may apply to the same use. Precondition: the steps of both name the same rules.
+/// Whether both overrides may apply to the same use of a rule (a place at which derivation applies the rule).
+/// Precondition: the paths of both name the same rules in their steps.
 bool canApplyTogether(const Program& program, const Override& a, const Override& b) {
   if (a.one_cell && b.one_cell && (a.layer != b.layer || a.cell != b.cell)) return false;
   for (uint32_t i = 0; i < a.steps.count; ++i) {
@@ -27,8 +28,8 @@ bool canApplyTogether(const Program& program, const Override& a, const Override&
   return true;
 }
 
-/// Whether `wide` applies to every use to which `narrow` applies. narrow = null stands for all paths through the same
-/// rules.
+/// Whether `wide` applies to every use of a rule (a place at which derivation applies it) to which `narrow` applies. If
+/// narrow is null: whether `wide` applies to every use that a path through its rules can reach.
 bool covers(const Program& program, const Override& wide, const Override* narrow) {
   if (wide.one_cell && (narrow == nullptr || !narrow->one_cell || narrow->cell != wide.cell)) return false;
   for (uint32_t i = 0; i < wide.steps.count; ++i) {
@@ -112,7 +113,8 @@ Extent OverrideExtents::boundInner(const StmtNode& s, const RangeFrame& at, Reac
 Extent OverrideExtents::boundTarget(const Target& target, size_t below, RangeFrame& frame, const Override* above,
                                     ReachContext& context) {
   std::optional<Extent> out;
-  // If two parts extend equally far, the content without the override stays the largest contributor.
+  // If the extents with and without an override are equally large, messages name the content without the override as
+  // the largest contributor.
   const auto add = [&](Extent part) {
     if (out) part.either(*out);
     out = std::move(part);

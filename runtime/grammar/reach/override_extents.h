@@ -1,5 +1,6 @@
 #pragma once
-// Handles overrides in the proof of reach: finds where they may apply, and evaluates their blocks.
+// Handles overrides in the proof of reach, which bounds how far shapes may extend beyond their cell: finds where they
+// may apply, and evaluates their blocks.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,12 +18,14 @@ class OverrideExtents {
  public:
   explicit OverrideExtents(const Program& program) : program_(program) {}
 
-  /// Which overrides may apply at the current place of the derivation.
+  /// The overrides that may apply at the current place of the derivation.
   struct State {
-    /// overrides by path: the first `depth` steps of the path lead to the current use, and further steps follow
+    /// overrides by path that may still apply further inside: the first `depth` steps of their paths lead to the
+    /// current use, and the paths have further steps
     std::vector<uint32_t> begun;
-    uint32_t depth = 0;  ///< number of path steps taken from the layer's start
-    /// overrides by tag whose own block encloses the current place, where they do not apply again
+    /// number of uses of rules from the layer's start to the current use, that is, of path steps that are matched
+    uint32_t depth = 0;
+    /// overrides by tag that do not apply at the current place, because it lies within their own block
     std::vector<uint32_t> within;
   };
 
@@ -36,10 +39,12 @@ class OverrideExtents {
   /// Returns the part of RuleExtents::Key that depends on overrides. replacing: the result of enter().
   std::vector<uint32_t> key(const std::vector<uint32_t>& replacing) const;
 
-  /// Returns the extent of a use of a rule: of its alternatives, and of the overrides that may replace it.
+  /// Returns the extent of a use of a rule. It encloses the rule's alternatives, and the blocks of the overrides that
+  /// may replace the use.
   Extent boundUse(uint32_t rule, const std::vector<RangeValue>& args, const std::vector<uint32_t>& replacing,
                   RangeFrame& frame, ReachContext& context);
-  /// Returns the extent of a block, a meet or an extrusion, and of the overrides of its tag.
+  /// Returns the extent of a block, a meet or an extrusion. It encloses the blocks of the overrides of the statement's
+  /// tag, too.
   Extent boundTagged(const StmtNode& s, uint16_t tag, RangeFrame& frame, ReachContext& context);
   /// Returns the extent of `inner`, the replaced content, in an override's block.
   Extent boundInner(const StmtNode& s, const RangeFrame& frame, ReachContext& context);
@@ -58,8 +63,9 @@ class OverrideExtents {
     const Target* outer = nullptr;      ///< the enclosing target, if the blocks of overrides are nested; null: none
   };
 
-  /// Returns the extent of the target as if only the first `below` of its overrides existed. above: the override by
-  /// path whose `inner` stands for this content; null: none.
+  /// Returns the extent of the target as if only the first `below` of its overrides existed. above: if the target is
+  /// evaluated for an `inner` in the block of an override by path, that override: overrides that cannot apply together
+  /// with it are left out. Otherwise null.
   Extent boundTarget(const Target& target, size_t below, RangeFrame& frame, const Override* above,
                      ReachContext& context);
   /// Returns the extent of the block of target.overrides[at], which replaces the target.

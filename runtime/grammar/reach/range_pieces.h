@@ -1,7 +1,8 @@
 #pragma once
 // Tightens the proof by subdividing ranges. Interval arithmetic ignores that a value used twice is the same both times
-// (the dependency problem), so `r / (0.3*r)`, or a displacement in proportion to its operand's size, gets too wide a
-// range. For short pieces of r's range the error is small; the union of all pieces covers the range.
+// (the dependency problem). So `r / (0.3*r)`, or a displacement in proportion to its operand's size, gets too wide a
+// range. For short pieces of r's range the error is small, and the union of the results for all pieces is a valid
+// result for the whole range.
 
 #include <cstdint>
 #include <functional>
@@ -13,11 +14,12 @@
 
 namespace sgm::reach {
 
-/// Selects which ranges the current attempt divides, and counts the splits that enclose the current statement, which
-/// limits the division of sizes.
+/// Selects the ranges that the current attempt divides. Also counts the split statements that enclose the current
+/// statement, because the ranges of sizes in a split are divided only if few splits enclose it.
 class RangePieces {
  public:
-  /// The ranges that are evaluated in pieces: none, only those that lead to a missing bound, or all.
+  /// Selects the ranges that are evaluated in pieces: no range, only ranges that lead to a missing bound, or all
+  /// ranges.
   enum class Mode : uint8_t { none, lost, all };
 
   void setMode(Mode mode) { mode_ = mode; }
@@ -27,16 +29,18 @@ class RangePieces {
   /// computes the extent for the current ranges of `values`, which are changed during the call and then restored.
   Extent boundOver(const std::vector<RangeValue*>& values, const std::function<Extent()>& extent,
                    const StepBudget& budget) const;
-  /// Returns the union of the extents over all pieces of a value's range. `whole` is the extent without division; its
-  /// sure_lo and sure_hi are kept, since they hold for the whole range. nullopt if the range cannot be divided, or if
-  /// some piece has no bound even at the smallest length.
+  /// Divides the range of a value into pieces, and returns the union of the extents for all pieces. `whole` is the
+  /// extent computed for the undivided range; the result takes sure_lo and sure_hi from `whole`, since these hold for
+  /// the whole range. Returns nullopt if the range cannot be divided, or if some piece has no bound even when it cannot
+  /// be divided further.
   std::optional<Extent> divide(RangeValue& value, const Extent& whole, const std::function<Extent()>& extent,
                                const StepBudget& budget) const;
 
-  /// Whether the sizes of parts are divided in a split at the current nesting depth.
+  /// Whether the ranges of the sizes of a split's parts are divided, for a split at the current nesting depth.
   bool dividesSizes() const { return !divides_few_sizes_ || splits_ < kSplitsInPieces; }
   bool dividesFewSizes() const { return divides_few_sizes_; }
-  /// From now on divides sizes only in the outermost splits, since nested division would exhaust the step budget.
+  /// From now on only the outermost splits divide the ranges of sizes, since nested division would exhaust the step
+  /// budget.
   void divideFewSizes() { divides_few_sizes_ = true; }
   void enterSplit() { ++splits_; }
   void leaveSplit() { --splits_; }

@@ -28,8 +28,8 @@ IntBox roundOutwards(const Extent& extent) {
   return bound;
 }
 
-/// Returns the box of a finite domain without a declared one: contains the extent with a margin of 1 m, and is centred
-/// on the origin.
+/// Returns the box of a finite domain that declares no box. The returned box is centred on the origin, and contains the
+/// extent with a margin of 1 m.
 IntBox centredBox(const Extent& extent) {
   IntBox box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -56,7 +56,8 @@ void checkLayer(uint32_t index, ReachContext& context) {
   reportMisfits(program, misfits.take(), sink);
   if (sink.full()) return;
   reach::reportObservation(layer, context);
-  // A division by 0 also causes a missing bound, which is not reported as a second error.
+  // A division by 0, which is reported as an error, also leaves the extent without a bound. The missing bound is then
+  // not reported as a second error.
   const bool enough = reach::isEnough(layer, extent, context);
   if (sink.full() || (sink.errorCount() > errors && !enough)) return;
   layer.bound = roundOutwards(extent);

@@ -19,7 +19,7 @@ inline constexpr double kUnit = 1.0 / kUnitsPerMetre;  ///< metres
 /// The cell in which the current layer's start rule is derived.
 struct StartCell {
   IntervalVector edges{};  ///< metres
-  bool whole = false;      ///< the start has no cells: it is derived once for the whole world
+  bool whole = false;      ///< the layer has no cells; its start is derived once for the whole world
   bool centred = false;    ///< the cell is centred on the origin, as for a finite domain
 };
 

@@ -14,7 +14,8 @@ namespace sgm::reach {
 namespace {
 
 constexpr Interval kMiddle{0.5, 0.5};
-/// A roof is cut off slightly above its peak, and heights are rounded (derive/interpret/profiles.cpp), metres.
+/// Margin in metres, because derivation cuts a roof off slightly above its peak, and rounds heights
+/// (derive/interpret/profiles.cpp).
 constexpr double kRounding = 4.0 / kUnitsPerMetre;
 
 Interval symmetric(Interval v) { return {-v.hi, v.hi}; }
@@ -34,7 +35,7 @@ RangeValue evaluateFootprint(const FootprintNode& plan, const RangeFrame& frame,
       out.v[2] = number(1);
       break;
     case Outline::regular:
-      // The edges of a regular polygon's box are 1.5 (triangle) to 2 radii long.
+      // The edges of the bounding box of a regular polygon are 1.5 radii (triangle) to 2 radii long.
       out.v[0] = out.v[2] = number(1) * Interval{1.5, 2};
       break;
     case Outline::polygon: {

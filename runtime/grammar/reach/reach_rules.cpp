@@ -25,7 +25,8 @@ void checkWeight(ExprId id, Interval weight, ReachContext& context) {
                          "below 0 it counts as 0: bound what it depends on, or write max(..., 0)");
 }
 
-/// Returns the extent of a head: of its block, and of the calls that replace it at its depth or minsize limit.
+/// Returns the extent of a head: the union of the extents of its block, and of the calls that replace the block when
+/// the head's depth or minsize limit is reached.
 Extent boundAlternative(uint32_t rule, const Alternative& head, RangeFrame& frame, ReachContext& context) {
   RangeEvaluator& values = context.values;
   std::optional<Extent> out;
@@ -37,7 +38,8 @@ Extent boundAlternative(uint32_t rule, const Alternative& head, RangeFrame& fram
     if (activations >= most.hi) return out.value_or(Extent::nothing());
   }
   if (head.minsize != kNoId) {
-    // minsize is compared with the final size, so the result depends on the scope's scale.
+    // The clause `minsize` is compared with the final size of the scope. So the result of this evaluation depends on
+    // the scale at which the rule is used.
     values.dependence().scale = true;
     const Interval scale = frame.place.scale, least = values.number(head.minsize, frame);
     Interval size{};
@@ -54,7 +56,8 @@ Extent boundAlternative(uint32_t rule, const Alternative& head, RangeFrame& fram
   return *out;
 }
 
-/// Returns the extent of a use of a rule, cached if possible. replacing: overrides by path that may replace the use.
+/// Returns the extent of a use of a rule, from the cache if possible. replacing: the overrides by path that may replace
+/// this use by another rule.
 Extent boundUse(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top,
                 const std::vector<uint32_t>& replacing, ReachContext& context) {
   RuleExtents& rules = context.rules;
@@ -114,7 +117,8 @@ Extent boundCall(ExprId id, CallSite site, const RangeFrame& frame, ReachContext
   Extent e = context.pieces.isDividing() ? boundRuleInPieces(n.id, args, frame, top, context)
                                          : boundRule(n.id, args, frame, top, context);
   values.calls().leave();
-  // Messages name the outermost call, which is the call in the start rule.
+  // If no bound is known, messages name the outermost call, that is, the call in the start rule. Exception: if an inner
+  // call has already lost the bound, they name that call (Extent::attribute).
   if (site == CallSite::statement && !e.empty) e.attribute(id);
   // The author cannot change the standard library, so messages name the author's call into it.
   if (e.largest_contributor != kNoId && !top && isStandard(program, program.expr(e.largest_contributor).span.file) &&
@@ -162,8 +166,8 @@ Extent boundAlternatives(uint32_t rule, const std::vector<RangeValue>& args, con
     const double count = out ? out->count : 0;
     const Extent part = boundAlternative(rule, head, frame, context);
     addAlternative(out, part);
-    // The alternatives with `lod` are derived in addition to the alternatives without, so their numbers of shapes add
-    // up.
+    // Alternatives with a `lod` clause are derived in addition to those without it, not instead of them, so the two
+    // counts of shapes are added.
     if (levels) out->count = count + part.count;
   }
   if (!out) out = Extent::nothing();

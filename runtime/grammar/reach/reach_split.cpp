@@ -13,13 +13,14 @@ namespace sgm::reach {
 
 namespace {
 
-/// Total sizes of rigid parts and preferred total sizes of flexible parts: of a split's parts outside the repeated
-/// group, or of one copy of the group.
+/// Sums of sizes over a split's parts outside the repeated group, or over the parts of one copy of the group. rigid:
+/// sizes of rigid parts; wanted: preferred sizes of flexible parts.
 struct Sums {
   Interval rigid{}, wanted{};
 };
 
-/// Number of pieces into which a range of sizes is divided: small parts may lie farther out than large ones.
+/// Number of pieces into which a range of sizes is divided. Small parts may lie farther out than large ones, so each
+/// piece has a tighter bound than the whole range.
 constexpr int kPieces = 4;
 
 /// The possible places of a part along the axis of its split, metres.
@@ -104,8 +105,9 @@ Extent boundSplit(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
     (parts[i].flexible ? sums.wanted : sums.rigid) = (parts[i].flexible ? sums.wanted : sums.rigid) + size;
   }
   // Rigid parts keep their size if nothing is cut off. A flexible part of the repeated group stretches at most by the
-  // factor 1.5, since the number of copies is rounded to nearest. If a further copy does not fit because of its rigid
-  // parts, the factor grows by at most the ratio of the group's rigid size to its preferred flexible size.
+  // factor 1.5, since the number of copies is rounded to the nearest whole number. If this rounding asks for one more
+  // copy, but the rigid parts of that copy do not fit, the factor grows by at most the ratio of the group's rigid size
+  // to its preferred flexible size.
   const double snap = s.amount == kNoId ? 0 : std::max(0.0, context.values.number(s.amount, frame).hi);
   const bool whole = others.rigid.hi <= length.lo && snap == 0;
   const double most = group.wanted.lo > 0 ? 1.5 + group.rigid.hi / group.wanted.lo + 1e-6 : kInfinity;

@@ -11,7 +11,7 @@ namespace sgm::reach {
 
 namespace {
 
-/// Whether statements of this kind derive no shapes.
+/// True if statements of this kind derive no shapes.
 bool isSilent(StmtKind kind) {
   return kind == StmtKind::let || kind == StmtKind::field || kind == StmtKind::mat || kind == StmtKind::tag ||
          kind == StmtKind::anchor || kind == StmtKind::footprint;
@@ -23,7 +23,7 @@ uint16_t blockTag(StmtId body, const Program& program) {
   return block ? program.stmt(body).tag : uint16_t{0};
 }
 
-/// Returns the extent of a block, given the extent `out` of the statements before index `next`.
+/// Returns the extent of a whole block. out: the extent of its statements before index `next`.
 Extent boundRestOfBlock(const StmtNode& s, uint32_t next, RangeFrame& frame, ReachContext& context, Extent out) {
   for (uint32_t i = next; i < s.children.count; ++i) {
     const StmtId child = context.program.idAt(s.children, i);
@@ -38,7 +38,8 @@ Extent boundRestOfBlock(const StmtNode& s, uint32_t next, RangeFrame& frame, Rea
       return context.pieces.boundOver({&frame.slots[slot]}, rest, context.budget);
     }
     if (inner.kind == StmtKind::cut && !(inner.layer_level && frame.top)) {
-      // A cut adds no shapes, but may remove any part of the preceding content, which is no longer certain.
+      // A cut adds no shapes, but it may remove any part of the preceding content. So no part of that content is
+      // certain any more.
       if (!part.empty) out.uncertain();
       out.node();
       continue;
@@ -68,7 +69,8 @@ Extent boundMeet(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
       out = part;
   }
   if (missing || !out) return Extent::nothing();
-  // An intersection (meet) with an empty operand is left out, so none of its shapes is certain.
+  // An intersection (meet) with an empty operand has no shapes, and an operand may turn out empty, so no shape of it is
+  // certain.
   out->certain = false;
   out->inner = inner_radius;
   out->inner_low = 0;
@@ -89,7 +91,8 @@ Extent boundSum(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   return e;
 }
 
-/// Evaluates the expressions of a snap or a detail, to record queries in them, and returns the extent of its body.
+/// Returns the extent of the body of a snap or a detail. Also evaluates the statement's own expressions, so that
+/// queries in them are recorded.
 Extent boundWithQueries(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   context.values.number(s.expr, frame);
   if (s.amount != kNoId) context.values.number(s.amount, frame);
@@ -105,7 +108,7 @@ Extent boundMorph(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   if (apart && !context.pieces.isDividing())
     context.sink.warning(s.span, codes::kMorphDisjoint,
                          "the two shapes of this morph lie apart, and may vanish half way", "let them overlap");
-  // Every blend contains the intersection of both shapes, and only that is certain.
+  // A blend of two shapes always contains their intersection. No point outside of the intersection is certainly solid.
   std::array<double, 3> lo = a.sure_lo, hi = a.sure_hi;
   for (size_t i = 0; i < 3; ++i) {
     lo[i] = std::max(lo[i], b.sure_lo[i]);
@@ -119,7 +122,7 @@ Extent boundMorph(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   a.certain = both;
   a.inner_low = inner_low;
   if (s.power && !a.empty) {
-    // The morph by exponent is a superquadric whose radii are between those of the two shapes.
+    // A morph by exponent is a superquadric. Its radii lie between the radii of the two shapes.
     const double least = inner_low > 0 ? 1 / inner_low : kInfinity;
     a.at.core = a.at.may;
     a.at.ball = 0;
@@ -140,7 +143,7 @@ Extent boundDisplace(const StmtNode& s, RangeFrame& frame, ReachContext& context
   }
   Extent e = boundStatement(s.body, frame, context);
   const Unbound before = e.why;
-  // Positive displacement makes the shape smaller, negative larger.
+  // A positive displacement makes the shape smaller, a negative one makes it larger.
   e.shrinkSure(by.magnitude() * (std::isfinite(e.spread) ? e.spread : 1));
   e.grow(std::max(0.0, -by.lo));
   e.node();
@@ -239,7 +242,9 @@ Extent boundStatement(StmtId id, RangeFrame& frame, ReachContext& context) {
   if (id == kNoId) return Extent::nothing();
   if (context.budget.cutAtLimit()) return Extent::unbounded();
   context.budget.enter();
-  // Save the loss of a bound found in the enclosing statement's own expressions, such as a position or a count.
+  // Save the latest loss of a bound that the enclosing statement's own expressions (such as a position or a count) have
+  // caused, and clear it. Then a loss that is found below belongs to this statement. The saved loss is put back at the
+  // end.
   BoundLosses& losses = context.values.losses();
   const uint32_t around = losses.takeLatest();
   Extent e = boundKind(context.program.stmt(id), frame, context);

@@ -47,9 +47,9 @@ void applySize(const XformNode& x, RangeFrame& frame, ReachContext& context) {
   frame.scope = scope;
 }
 
-/// Sets the frame's scope to a range that contains the scopes of all copies, each of which is computed from the
-/// previous one: the first few one by one, then a range that further steps do not leave. times: upper bound of the
-/// number of copies after the first.
+/// Sets the frame's scope to a range that contains the scopes of all copies of a repeat. The scope of each copy is
+/// computed from the previous copy's scope, one by one for the first copies. If there are more copies, an edge becomes
+/// unbounded if one further step would leave its range. times: upper bound of the number of copies after the first.
 void applySizes(IdRange xforms, double times, RangeFrame& frame, ReachContext& context) {
   const auto step = [&](const IntervalVector& scope) {
     RangeFrame next = frame;
@@ -70,7 +70,7 @@ void applySizes(IdRange xforms, double times, RangeFrame& frame, ReachContext& c
     if (joined(all, step(all)) == all) times = 0;
   }
   if (times > kSizedCopies) {
-    // Edges that shrink with each copy approach 0.
+    // Edges that shrink with each copy approach 0, so their range must include 0.
     for (Interval& edge : all) edge.lo = std::min(edge.lo, 0.0);
     const IntervalVector next = step(all);
     for (size_t k = 0; k < 3; ++k)
@@ -79,7 +79,8 @@ void applySizes(IdRange xforms, double times, RangeFrame& frame, ReachContext& c
   frame.scope = all;
 }
 
-/// Returns the total length of the moves in one step of a repeat, for each axis.
+/// Returns a vector along x, in either direction, that is at least as long as all moves in one step of a repeat
+/// together. anyDirection() converts it to bounds for all directions.
 IntervalVector boundStepLengths(IdRange xforms, const RangeFrame& frame, ReachContext& context) {
   double sum = 0;
   for (uint32_t i = 0; i < xforms.count; ++i) {
@@ -132,7 +133,8 @@ struct RepeatedStep {
   int turns = 0, axis = 3, mirrors = 0, mirror = 0;
 };
 
-/// times: range of the number of steps, over all copies.
+/// Evaluates the transforms of one step of a repeat. times: the range of the number of steps that lead to a copy, over
+/// all copies.
 RepeatedStep evaluateStep(IdRange xforms, Interval times, const RangeFrame& frame, ReachContext& context) {
   RepeatedStep out;
   for (uint32_t i = 0; i < xforms.count; ++i) {
@@ -208,8 +210,8 @@ Extent boundTransform(const StmtNode& s, RangeFrame& frame, ReachContext& contex
   return e;
 }
 
-/// Returns the extent of a repeat. Copy i results from i steps; exact if the steps only move, or only rotate about one
-/// axis.
+/// Returns the extent of a repeat, whose copy i results from i steps. The extent is exact if the steps only move, or
+/// only rotate about one axis.
 Extent boundRepeat(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   const Interval count = rounded(context.values.number(s.expr, frame));
   if (!(count.hi >= 1)) return Extent::nothing();

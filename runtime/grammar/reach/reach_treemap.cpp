@@ -15,9 +15,10 @@ namespace sgm::reach {
 
 namespace {
 
-/// Upper bound of the number of rectangles of rooms and corridors, and of doors.
+/// Upper bound of the number of rectangles that rooms and corridors consist of, and of the number of doors.
 constexpr double kMaxBoxes = 1024;
-/// Number of pieces into which a range of room edges is divided: small rooms may lie farther out than large ones.
+/// Number of pieces into which a range of room edges is divided. Small rooms may lie farther out than large ones, so
+/// each piece has a tighter bound than the whole range.
 constexpr int kRoomPieces = 2;
 
 /// Returns the extent of a child whose scope may lie anywhere in a box with these edges, along x and z.

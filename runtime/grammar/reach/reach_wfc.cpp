@@ -12,13 +12,13 @@ namespace sgm::reach {
 
 namespace {
 
-/// Returns the number of places along an edge: the whole number nearest to edge / wanted, at least 1.
+/// Returns the number of places for tiles along an edge: the whole number nearest to edge / wanted, at least 1.
 Interval placesIn(Interval edge, Interval wanted) {
   const Interval count = floorOf(edge / wanted + Interval::exactly(0.5));
   return {std::max(1.0, std::isfinite(count.lo) ? count.lo : 1.0), std::max(1.0, count.hi)};
 }
 
-/// Returns the edge of a place: 3/4 to 3/2 of the wanted one, unless the scope is smaller.
+/// Returns the edge of a place for a tile: 3/4 to 3/2 of the wanted edge, unless the scope is smaller.
 Interval placeEdge(Interval edge, Interval wanted, Interval count) {
   if (count.exact()) return edge / count;
   return {std::min(edge.lo, 0.75 * wanted.lo), std::min(edge.hi, 1.5 * wanted.hi)};
@@ -65,12 +65,14 @@ Extent boundWfc(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     const PartNode& part = context.program.ast.parts[s.parts.first + i];
     if (part.label == kNoId) continue;
-    context.values.number(part.size, frame);  // the weight is evaluated only to record the queries in it
+    // The value of the weight is not needed, but its evaluation records the queries in it.
+    context.values.number(part.size, frame);
     const StmtId child = context.program.idAt(s.children, i);
     std::optional<Extent> one;
     const int turns = context.program.ast.tiles[part.tile].turns ? 4 : 1;
     for (int turn = 0; turn < turns; ++turn) {
-      // The scope is evaluated in the tile's own axes. In these, the surroundings are rotated by the opposite turn.
+      // The scope is expressed in the tile's own axes: for an odd number of quarter turns, its x and z edges are
+      // swapped.
       const bool across = turn % 2 != 0;
       const auto own = [&](const IntervalVector& v) { return across ? IntervalVector{v[2], v[1], v[0]} : v; };
       const bool turned = frame.place.turned;

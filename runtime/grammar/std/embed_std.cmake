@@ -3,8 +3,8 @@ set(body "")
 set(count 0)
 foreach(file IN LISTS FILES)
   file(READ ${DIR}/${file} text)
-  # Compilers limit the length of a literal. C++ recommends a limit of at least 65,536 characters, so each file must be
-  # shorter.
+  # Each file must be shorter than the longest literal that compilers accept. C++ recommends a limit of at least 65,536
+  # characters.
   string(APPEND body "    {\"std/${file}\", R\"sgm(${text})sgm\"},\n")
   math(EXPR count "${count} + 1")
 endforeach()

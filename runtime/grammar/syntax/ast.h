@@ -39,7 +39,7 @@ enum class ExprKind : uint8_t {
   name,         ///< a name with the meaning `ref` and `id`
   member,       ///< children[0] . member; `module.name` and method calls become `name` and `call` nodes instead
   call,         ///< a call; uses ref, id and bound
-  query,        ///< clear [children[0]: radius] of LAYER, or inside [radius] of LAYER; uses ref, id
+  query,        ///< `clear of LAYER` or `inside RADIUS of LAYER`; children[0]: the radius, if written; uses ref, id
 };
 
 enum class BinaryOp : uint8_t {
@@ -79,8 +79,8 @@ struct ExprNode {
   BinaryOp binary = BinaryOp::add;
   Ref ref = Ref::none;           ///< set by the checker: the kind of thing that `id` refers to
   Member member = Member::none;  ///< set by the checker: the member after the dot
-  bool parenthesised = false;    ///< the text has parentheses around the expression, which the printer must keep
-  bool shape = false;  ///< call of a rule or primitive, which may be written without () if it has no arguments
+  bool parenthesised = false;    ///< true: the text has parentheses around the expression, which the printer must keep
+  bool shape = false;  ///< true: a call of a rule or primitive, so that () may be omitted if there are no arguments
   /// query: `inside` tests that the whole ball is solid; otherwise `clear` tests that all of it is void
   bool inside = false;
   /// for a call of a rule, set by the checker: the callee may, directly or indirectly, call the rule that contains this
@@ -120,7 +120,7 @@ enum class StmtKind : uint8_t {
 /// The relation of a statement to its body, and where the statement may stand.
 enum class StmtRole : uint8_t {
   plain,
-  placing,  ///< the statement adds only its body's content: moved, repeated, or only at some levels
+  placing,  ///< the statement adds only its body's content, which it moves, repeats, or derives only at some levels
   part,     ///< the statement stands only among the parts of a treemap or a wfc, never in a block
 };
 
@@ -144,8 +144,9 @@ constexpr bool placesBody(StmtKind kind) { return infoOf(kind).role == StmtRole:
 /// The meaning of each member depends on the kind of statement; see stmts.def.
 struct StmtNode {
   StmtKind kind = StmtKind::block;
-  bool power = false;  ///< morph: by exponent instead of linear interpolation
-  /// for cut and inner, set by the checker: the cut removes from the domain if the rule is a layer's start
+  bool power = false;  ///< morph: true: interpolates the exponent of a superquadric; false: interpolates linearly
+  /// for cut and inner, set by the checker: the statement stands at the top level of its body, so that a cut there
+  /// removes from the domain if the rule is a layer's start
   bool layer_level = false;
   uint16_t material = 0;  ///< for a block, set by the checker: index in Program::materials; 0: inherited
   uint16_t tag = 0;       ///< for a block, set by the checker: index in Program::tags; 0: inherited
@@ -185,7 +186,7 @@ struct XformNode {
 };
 
 enum class ScatterArea : uint8_t {
-  cell,   ///< the box between the scope's origin and the edges of the cell; only for poisson
+  cell,   ///< the grammar cell: the points of a layer-wide point set that lie in the cell; only for poisson
   shell,  ///< a: radius of a sphere; b: `up`, the fraction of the sphere's area, from the top (0..1, default 1)
   box,    ///< a, b, c: edges, centred (or a: a vector)
   disc,   ///< a: radius, in the plane y = 0
@@ -193,8 +194,8 @@ enum class ScatterArea : uint8_t {
 
 /// A point set; the body is derived at each point, with the scope's axes. With `probe`, each point moves up or down to
 /// the first surface of the layer within `distance`; a point that starts in solid, or that finds no surface, is
-/// dropped. With `gap`, the free distance from there in the opposite direction to the next surface is passed to the
-/// body; points where it exceeds `within` are dropped.
+/// dropped. With `gap`, the body also receives the free distance from that surface to the next surface in the opposite
+/// direction; points at which this distance exceeds `within` are dropped.
 struct ScatterNode {
   bool poisson = false;
   ExprId count = kNoId;  ///< the number of points; for poisson: the minimum distance between them
@@ -273,10 +274,11 @@ struct RoofNode {
   IdRange args;             ///< the arguments as written: a range of Ast::args
 };
 
-/// An interval of an asset along one axis, measured from the low end of its box, that adapts when the asset is fitted.
+/// An interval along one axis of an asset, which is repeated or stretched when the asset is fitted into a scope. The
+/// ends are measured from the low end of the asset's box.
 struct FitZoneNode {
   uint8_t axis = 0;      ///< 0 1 2 (x y z)
-  bool repeats = false;  ///< the zone is repeated to fill the scope; otherwise it is stretched
+  bool repeats = false;  ///< true: the zone is repeated to fill the scope; false: it is stretched
   ExprId from = kNoId, to = kNoId;
   Span span;
 };
@@ -302,9 +304,10 @@ struct LinkNode {
 
 /// The labels of one side of a tile or of a wfc's border, as written.
 struct SocketNode {
-  BoxPart of = BoxPart::front;  ///< the side: front to bottom, or `side` for all four upright sides
-  IdRange labels;               ///< into Ast::ids (NameId): the labels of this side
-  IdRange meets;                ///< into Ast::ids (NameId): labels that this side may touch; empty: those in `labels`
+  /// the side: one of BoxPart::front to BoxPart::bottom, or BoxPart::side for all four upright sides
+  BoxPart of = BoxPart::front;
+  IdRange labels;  ///< into Ast::ids (NameId): the labels of this side
+  IdRange meets;   ///< into Ast::ids (NameId): labels that this side may touch; empty: those in `labels`
   Span span;
 };
 
@@ -319,7 +322,7 @@ struct SideKind {
 
 /// A tile of a wfc, or the border of a wfc.
 struct TileNode {
-  bool turns = false;  ///< may be rotated by any number of quarter turns about y
+  bool turns = false;  ///< true: the tile may be rotated by any number of quarter turns about y
   IdRange sockets;     ///< the sides as written: a range of Ast::sockets
   /// set by the checker, in the order of BoxPart: index of each side's kind in WaveNode::kinds
   std::array<uint8_t, 6> sides{};
@@ -352,7 +355,7 @@ struct FormalNode {
 struct Comment {
   uint32_t begin = 0, end = 0;
   int line = 0;
-  bool own_line = false;  ///< only white space precedes it on its line
+  bool own_line = false;  ///< true: only white space precedes the comment on its line
 };
 
 struct Ast {

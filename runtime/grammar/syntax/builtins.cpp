@@ -11,10 +11,10 @@ namespace {
 
 using P = BuiltinParam;
 
-/// A parameter for a number of any dimension at any stage; the first such argument determines the dimension of the
-/// others.
+/// A parameter that takes a number of any dimension, known at derivation time or only at sample time. The first such
+/// argument of a call determines the dimension of the others.
 constexpr P any(std::string_view name) { return {name, ValueKind::number, kRatio, true, true, 0, false, false}; }
-/// A parameter for a ratio at any stage.
+/// A parameter that takes a ratio. The argument may be known at derivation time or only at sample time.
 constexpr P ratio(std::string_view name) { return {name, ValueKind::number, kRatio, false, true, 0, false, false}; }
 constexpr P derived(P p) { return p.derive_only = true, p; }
 constexpr P number(std::string_view name, Dim dim) { return {name, ValueKind::number, dim}; }
@@ -47,8 +47,8 @@ constexpr std::array kVec = {any("x"), any("y"), any("z")};
 constexpr std::array kBranch = {number("n", kRatio), named(number("step", kLength)), named(number("turn", kAngle)),
                                 named(option("fork", kRatio, 0))};
 
-// Lengths below a millionth of a millimetre would round to 0 units. The range of `turn` has a tolerance, since 90deg
-// may be rounded upwards.
+// The minimum of `step` is 1e-9 m instead of 0, so that a step of 0 is rejected. The maximum of `turn` has a tolerance,
+// since 90deg may be rounded upwards.
 constexpr std::array<ValueRange, 4> kBranchRanges = {
     {{0, kMaxSegments, "a branch takes 0 to 4096 steps", "raise `step` instead"},
      {1e-9, 1e9, "the `step` of a branch is a length above 0", "such as step 6m"},

@@ -13,12 +13,13 @@ namespace sgm {
 /// The values that the language defines.
 enum class BuiltinValue : uint8_t {
   cell,  ///< the cell that is being derived; only in rules
-  /// vector: edges of the scope's box (rules only); at a rule's start, the edges of its layer's cell or the domain's
-  /// box
+  /// vector: edge lengths of the scope's box; only in rules; at the start of a start rule: the edges of the layer's
+  /// cell, or of the domain's box
   scope,
-  p,  ///< at sample time: the position in the world, metres
-  q,  ///< at sample time: the position in the scope of the statement that uses the field, metres
-  u,  ///< at sample time: the relative position, 0..1, along the tube or beam around the field
+  p,  ///< only at sample time: the sample's position in the world, in metres
+  q,  ///< only at sample time: the sample's position in the scope of the statement that uses the field, in metres
+  u,  ///< only at sample time: the position along the tube or beam to which the field is applied, from 0 at its start
+      ///< to 1 at its end
 };
 
 /// Built-in functions. Positions are relative to the scope with which the rule starts. The start rule of a layer starts
@@ -32,7 +33,7 @@ enum class Builtin : uint8_t {
   sqrt,   ///< (a): the exponents of the dimension are halved
   mix,    ///< (a, b, t)
   clamp,  ///< (a, low, high)
-  /// (low, high, x): 0 at low, 1 at high; low and high must be known at derivation time; low > high reverses it
+  /// (low, high, x): 0 at low, 1 at high, also if low > high; low and high must be known at derivation time
   smoothstep,
   fract,   ///< (a) ratio: a - floor(a)
   sin,     ///< (angle), known at derivation time
@@ -51,7 +52,8 @@ enum class Builtin : uint8_t {
   /// (period, octaves = 1, salt = 0): fractal gradient noise of p in -1..1, known at sample time. Its arguments must be
   /// known at derivation time; period is rounded to units; octaves 1..12
   fractal,
-  /// cell.point(jitter = 0.5): a random point of the cell; jitter 0: its centre, 1: anywhere in it. bound[0]: the cell
+  /// cell.point(jitter = 0.5): a random point of the cell; with jitter 0 the cell's centre, with jitter 1 any point of
+  /// the cell. bound[0] is the cell.
   cell_point,
   /// cell.links(tree = 3, extra = 0): the faces of the cell that a passage crosses (Lattice::linked). Only the lower of
   /// a face's two cells returns it, so that a link is derived once
@@ -93,12 +95,13 @@ enum class Primitive : uint8_t {
 /// neighbourhood, itself included, is solid. The neighbourhood is a cube of 2 radius + 1 voxels per edge, flat along
 /// axes on which the layer has no cells, where all voxels are equal. The same arguments give the same voxels in every
 /// cell, rule and layer, so that neighbouring cells join without a seam; if arguments differ between cells, voxels end
-/// at the cell's face. The field's absolute value is at most 7/8 of a voxel, so a larger displacement makes everything
-/// solid or void. Levels whose cell edge exceeds `coarsest_voxels` voxels omit the shape.
+/// at the cell's face. The field's absolute value is at most 7/8 of a voxel's edge, so a larger displacement makes
+/// everything solid or void. Levels whose cell edge exceeds `coarsest_voxels` voxels omit the shape.
 struct AutomatonLimits {
-  static constexpr int32_t least_edge = 16;  ///< minimum edge of a voxel, units
-  static constexpr int32_t max_voxels = 64;  ///< maximum number of voxels along a cell's edge; the minimum is 1
-  static constexpr int32_t max_rounds = 16;  ///< maximum number of rounds; the minimum is 0
+  static constexpr int32_t least_edge = 16;  ///< minimum edge of a cellular automaton's voxel, in units
+  static constexpr int32_t max_voxels = 64;  ///< maximum number of a cellular automaton's voxels along a cell's edge;
+                                             ///< the minimum is 1
+  static constexpr int32_t max_rounds = 16;  ///< maximum number of rounds of a cellular automaton; the minimum is 0
   static constexpr int32_t max_radius = 4;   ///< maximum radius of the neighbourhood in voxels; the minimum is 1
   /// maximum of rounds times radius: how far a voxel influences others, in voxels
   static constexpr int32_t max_halo = 16;
@@ -116,7 +119,8 @@ struct BuiltinParam {
   std::string_view name;
   ValueKind kind;
   Dim dim;
-  bool any_dim = false;  ///< numbers of any dimension; the first such argument determines it for all any_dim parameters
+  /// accepts numbers of any dimension; the first such argument determines the dimension of all any_dim parameters
+  bool any_dim = false;
   bool required = true;
   double fallback = 0;      ///< the value used if the argument is omitted
   bool named_only = false;  ///< the argument must be written as `name value`
@@ -155,8 +159,8 @@ std::span<const ValueRange> branchRangeTable();   ///< valid ranges of branch()'
 /// Returns nullptr if there is no such function. For rand and chance, returns the form without a key.
 const BuiltinInfo* findBuiltin(std::string_view name);
 const PrimitiveInfo* findPrimitive(std::string_view name);
-/// Whether `word -2m`, as an argument of a builtin or of `at`, passes -2m to the parameter `word`, instead of being a
-/// subtraction.
+/// True if `word -2m`, written as an argument of this builtin (or of `at`), passes the value -2m to the parameter
+/// `word`. Otherwise it is the subtraction of 2m from `word`.
 bool namesArgument(std::string_view callee, std::string_view word);
 
 }  // namespace sgm

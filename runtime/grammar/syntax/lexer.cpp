@@ -19,7 +19,7 @@ constexpr size_t kLongestName = 64;
 constexpr size_t kLongestText = 1024;
 constexpr size_t kLongestNumber = 40;
 constexpr double kLargestNumber = 1e9;
-constexpr double kLargestLength = 2097151;  // the integer grid ends at 2^31 / 1024 m
+constexpr double kLargestLength = 2097151;  // metres: world coordinates end at 2^31 units of 1/1024 m
 
 struct Unit {
   std::string_view name;
@@ -85,7 +85,8 @@ class Lexer {
     sink_.error(span, code, std::move(message), std::move(hint));
   }
 
-  /// Reports one error for the whole file: it is not UTF-8, so its bytes do not have the intended meaning.
+  /// Reports a single error for the whole file: it is not UTF-8, so the characters read from it are not those that the
+  /// author wrote.
   LexResult unreadable(const EncodingFault& fault) {
     for (size_t i = 0; i < fault.at; ++i, ++at_)
       if (text_[i] == '\n') ++line_, line_start_ = i + 1;

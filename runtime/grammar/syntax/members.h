@@ -1,9 +1,9 @@
 #pragma once
 // Lists the members of each node of the syntax tree that are written in the text, once for all passes that visit them.
 //
-// Each list destructures its node, so that a new member does not compile until the list names it, and passes the
-// written members to a visitor, in order. Lists of statements are generated from stmts.def. Members computed by the
-// parser or the checker are not visited: bound arguments, slots, spans.
+// Each list destructures its node, so adding a member to a node is a compile error until its list names it. The list
+// passes the written members to a visitor, in order. Lists of statements are generated from stmts.def. Members computed
+// by the parser or the checker are not visited: bound arguments, slots, spans.
 
 #include <cstdint>
 
@@ -11,17 +11,17 @@
 
 namespace sgm {
 
-/// The base of visitors: ignores all members. A visitor derives from it and hides the functions for the members it
-/// needs.
+/// Base class of visitors: its functions ignore all members. A visitor derives from it, and hides those functions whose
+/// members it needs.
 struct MemberVisitor {
-  void expr(ExprId) {}  ///< an expression; kNoId: not written
-  /// an end of a parameter's declared range, which is only checked and never changes a value; kNoId: not written
+  void expr(ExprId) {}  ///< an expression; kNoId if the text omits it
+  /// an end of a parameter's declared range: it is only checked, and never changes a value; kNoId if the text omits it
   void limit(ExprId) {}
-  void stmt(StmtId) {}  ///< a statement; kNoId: not written
-  void name(NameId) {}  ///< a name or a text; kNoId: not written
+  void stmt(StmtId) {}  ///< a statement; kNoId if the text omits it
+  void name(NameId) {}  ///< a name or a text; kNoId if the text omits it
   void literal(double, const Type&) {}
   void value(uint64_t) {}  ///< an enumerator, a flag or a whole number
-  void count(uint32_t) {}  ///< the number of nodes that are visited next
+  void count(uint32_t) {}  ///< the number of nodes of the list that is visited next
 };
 
 namespace members {
@@ -57,7 +57,7 @@ void visitNodes(const Program& program, const Table& table, IdRange range, V& v)
   for (uint32_t i = 0; i < range.count; ++i) visitMembers(program, table[range.first + i], v);
 }
 
-/// Visits each part, followed by its child statement.
+/// Visits each part of a statement, and after each part the child statement that belongs to it.
 template <class V>
 void visitParts(const Program& program, IdRange parts, IdRange children, V& v) {
   v.count(parts.count);

@@ -25,7 +25,8 @@ namespace sgm {
 
 /// One source file: the root (index 0), an import, or a part of the standard library.
 struct Module {
-  std::pmr::string path;  ///< as passed by the caller; for imports relative to the root's folder; or "std/rock.sgm"
+  /// the root's path as the caller passed it; an import's path relative to the root's folder; or "std/rock.sgm"
+  std::pmr::string path;
   std::pmr::string text;
   std::pmr::vector<Comment> comments;
 
@@ -36,7 +37,8 @@ struct Module {
 struct Asset {
   std::pmr::string path;  ///< path of the file, relative to the root's folder
   std::shared_ptr<const asset::Polyhedron> solid;
-  std::pmr::vector<std::pmr::string> material_names;  ///< in the order of the indices in the solid's faces
+  /// names of the materials to which the solid's faces refer by index
+  std::pmr::vector<std::pmr::string> material_names;
   /// for each name in material_names, set by the checker: an index in Program::materials; 0: inherited
   std::pmr::vector<uint16_t> materials;
   uint64_t hash = 0;  ///< hash of the solid and its material names
@@ -52,8 +54,9 @@ struct Param {
   double value = 0;          ///< the default
   double low = 0, high = 0;  ///< the permitted range, ends included; low = high = value if none is written
   bool has_range = false;
-  bool whole = false;     ///< default and range are whole numbers without a unit, so values must be whole, too
-  bool animated = false;  ///< meant to be varied over its range while the world is viewed
+  /// the parameter's default and range are whole numbers without a unit, so its values must be whole, too
+  bool whole = false;
+  bool animated = false;  ///< the parameter is meant to be varied over its range while the world is viewed
   NameId doc = kNoId;
   ExprId value_expr = kNoId, low_expr = kNoId, high_expr = kNoId;
   Span span;
@@ -71,8 +74,8 @@ struct Let {
 };
 
 /// A sample-time expression with optional parameters. A global field is evaluated in a frame of its own, whose slots
-/// are its formals. A local field is evaluated in the frame of the rule alternative that declares it, which also has
-/// slots for the field's formals. `q` is relative to the scope of the statement that uses the field.
+/// are its formals. A local field is evaluated in the frame of the rule alternative that declares the field; this frame
+/// also has slots for the field's formals. `q` is relative to the scope of the statement that uses the field.
 struct Field {
   NameId name = kNoId;
   uint32_t module = 0;
@@ -100,7 +103,7 @@ struct Alternative {
   /// a number: if the path already contains this many activations of the rule, depth_call is derived instead of the
   /// body
   ExprId depth = kNoId;
-  ExprId depth_call = kNoId;  ///< a call of a rule or primitive
+  ExprId depth_call = kNoId;  ///< the call of a rule or primitive that is derived at the `depth` limit
   /// a length: if the size (see size_slot) is smaller, minsize_call is derived instead of the body
   ExprId minsize = kNoId;
   ExprId minsize_call = kNoId;
@@ -111,7 +114,7 @@ struct Alternative {
   ExprId lod = kNoId;
   StmtId body = kNoId;      ///< a block
   uint32_t slot_count = 0;  ///< number of slots in the frame of this head
-  Span span;                ///< span of the head in the text
+  Span span;                ///< place of the head in the grammar's text
 };
 
 /// All alternatives of one name. A morphic rule has one alternative, whose body is one morph statement.
@@ -124,7 +127,7 @@ struct Rule {
   std::pmr::vector<uint32_t> calls;  ///< rules that this rule may call, also in its overrides, each once, ascending
   /// overrides that may apply in this rule, as indices into Program::overrides, each once, ascending
   std::pmr::vector<uint32_t> overrides;
-  Span span;  ///< span of the rule's name in its first head
+  Span span;  ///< place in the text of the rule's name, in the rule's first head
 
   explicit Rule(std::pmr::memory_resource* memory) : alternatives(memory), calls(memory), overrides(memory) {}
 };
@@ -132,7 +135,7 @@ struct Rule {
 /// A step of a derivation path: a use of `rule`.
 struct PathStep {
   uint32_t rule = kNoId;
-  uint32_t index = kNoId;  ///< index among the parent's activations of the same rule; kNoId: all of them
+  uint32_t index = kNoId;  ///< which of the parent's activations of this rule, counted from 0; kNoId: all of them
 
   friend auto operator<=>(const PathStep&, const PathStep&) = default;
 };
@@ -157,10 +160,10 @@ struct Override {
 
 /// A layer. Layers are in topological order: a layer uses only layers before it.
 struct Layer {
-  NameId name = kNoId;  ///< "main" for a top-level start, in a grammar without layers
+  NameId name = kNoId;  ///< name of the layer; "main" for a top-level start, in a grammar without layers
   /// edges of a cell in units, at least 1; 0 on axes without cells; for a top-level start: edges of the domain
   Int3 cell;
-  int32_t reach = 0;  ///< units: shapes stay within the cell's box grown by this
+  int32_t reach = 0;  ///< distance in units by which shapes may extend beyond the cell's box
   std::pmr::vector<uint32_t> uses;
   ExprId start = kNoId;  ///< the call of a rule that is derived in each cell
   ExprId cell_expr = kNoId, reach_expr = kNoId;
@@ -170,8 +173,8 @@ struct Layer {
   /// `bound` lies within cell + reach; otherwise derivation must reject shapes that exceed that box
   bool proven = false;
   /// The largest cell edge of a level, in units, at which the layer may show anything, whatever its parameters, seed
-  /// and cell. Limited by the layer's own `detail`, or by those of all its shapes. INT32_MAX: no limit; 0: the layer
-  /// has no shapes.
+  /// and cell. It is limited by the `detail` of the layer, or by the `detail` statements around all of its shapes.
+  /// INT32_MAX: no limit; 0: the layer has no shapes.
   int32_t coarsest_cell = std::numeric_limits<int32_t>::max();
   /// some of its shapes may be visible only at some levels, by `detail` or `lod` within the layer
   bool by_level = true;
@@ -195,9 +198,10 @@ struct Domain {
   /// written.
   int32_t density_edge = kDensityEdge;
   uint16_t material = 0;  ///< material of a solid domain; index in Program::materials
-  /// Only finite: the world's box in units, centred on the origin. A top-level start (layer "main") is derived once, as
-  /// cell 0 0 0; its scope is at the origin and has this box's edges as its size, and the cell's low corner counts as
-  /// the origin. Written as `domain finite box(x, y, z)`; otherwise the proven bound of the shapes, grown by 1 m.
+  /// Of a finite domain: the world's box in units, centred on the origin. The grammar states it by `domain finite
+  /// box(x, y, z)`; without such a statement, it is the proven bound of the shapes, grown by 1 m. A top-level start
+  /// (layer "main") is derived once, as cell 0 0 0. Its scope is at the origin and has this box's edges as its size;
+  /// the origin also counts as the cell's low corner.
   IntBox box;
   bool written = false;  ///< the program contains a domain declaration
   Span span;
@@ -254,7 +258,7 @@ class Program {
   std::pmr::vector<Rule> rules;
   std::pmr::vector<Layer> layers;
   Domain domain;
-  NameId unit = kNoId;  ///< from `units`: the unit of lengths that the host passes without one; kNoId: not written
+  NameId unit = kNoId;  ///< from `units`: the unit of lengths that the host passes without a unit; kNoId: not written
   uint64_t seed = 0;    ///< from the declaration `seed` (a text is hashed); combined with the world's seed
   std::pmr::vector<std::pmr::string> materials;  ///< material names; [0] is "" (none)
   std::pmr::vector<std::pmr::string> tags;       ///< tags; [0] is "" (none)

@@ -15,8 +15,8 @@ inline constexpr ValueRange kSnapRange{0.01, 1e5, "snap planes are 1cm or more a
 
 inline constexpr ValueRange kSnapReachRange{0, 1e5, "the snap reach of a split is 0m or more", "such as snap 0.5m"};
 
-/// Metres by which the entrance of a treemap extends outwards beyond its floor, and doors into the spaces that they
-/// join.
+/// Metres by which the entrance of a treemap extends outwards beyond its floor, and by which doors extend into the
+/// spaces that they join.
 inline constexpr double kDoorReach = 16.0 / kUnitsPerMetre;
 
 inline constexpr size_t kMaxRooms = 32;

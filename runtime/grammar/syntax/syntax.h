@@ -1,6 +1,6 @@
 #pragma once
-// The parser's result for one file, apart from the arrays in Program: the order of its declarations, and what the
-// checker resolves. Exists only during compilation and printing.
+// The parser's result for one file, apart from the arrays in Program: the order of its declarations, and the names that
+// the checker has yet to resolve. Exists only during compilation and printing.
 
 #include <cstdint>
 #include <memory_resource>
@@ -82,7 +82,8 @@ struct ModuleSyntax {
   /// The whole text was parsed without skipping a part after an error.
   bool complete = true;
   bool readable = true;  ///< false if nothing of the text was parsed
-  /// false: a skipped part may have bounded the shapes, such as a domain or an operand of a meet or a sum
+  /// False if a part of the text was skipped after an error, and this part may have bounded the extent of the shapes:
+  /// for example a domain, or an operand of a meet or a sum.
   bool bounded = true;
   std::set<NameId> in_doubt;  ///< words in skipped parts, which may be names that are declared there
 

@@ -32,14 +32,15 @@ struct CompileLimits {
   uint32_t nesting = 64;            ///< maximum nesting depth of blocks, and of expressions
   uint32_t nodes = 1u << 20;        ///< maximum number of tokens, and of expressions and statements together
   uint32_t diagnostics = 50;        ///< number of errors after which the compiler stops
-  uint32_t bound_steps = 1u << 18;  ///< maximum number of steps of each attempt to evaluate the rules over intervals
+  uint32_t bound_steps = 1u << 18;  ///< maximum number of steps in one attempt to evaluate the rules with intervals of
+                                    ///< values
   int32_t neighbours = 4;           ///< maximum number of cells that a layer's reach may span on each side
 };
 
 struct CompileOptions {
   ImportResolver* resolver = nullptr;  ///< nullptr: only imports of "std/..." are available
   CompileLimits limits;
-  /// allocates the Program, which it must outlive
+  /// allocates the memory of the Program; must outlive the Program
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
 

@@ -132,7 +132,8 @@ typedef struct sgm_error {
     SGM_OK, 0, 0, { 0 } \
   }
 
-/* The first members of every extension struct, to which a later version may let `next` point. */
+/* The first members of every extension struct. This version has no such structs; a later version may define some, to
+ * which the `next` of other structs may point. */
 typedef struct sgm_chain {
   uint32_t struct_size;
   uint32_t kind;
@@ -460,7 +461,7 @@ SGM_API sgm_result sgm_grammar_parameter(const sgm_grammar* grammar, uint32_t in
  *   field_desc.parameters = parameters;
  *   sgm_field_create(runtime, &field_desc, &field, &error);
  *   sgm_world_set_field(world, field, &error);
- *   sgm_field_destroy(field);    the world keeps it for as long as it needs it */
+ *   sgm_field_destroy(field);    the world keeps the field alive while it needs it */
 typedef struct sgm_parameters sgm_parameters;
 
 SGM_API sgm_result sgm_parameters_create(const sgm_grammar* grammar, sgm_parameters** out, sgm_error* error);
@@ -657,9 +658,9 @@ typedef struct sgm_ray_desc {
   { SGM_SIZEOF(sgm_ray_desc), SGM_NULL, {0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, 1.0 }
 
 /* Finds the first point where a ray hits the solid. A ray that starts in the solid hits it immediately (`inside`). The
- * search misses no solid that the ray crosses for at least a sixteenth of a cell, or for a unit if that is more; so it
- * misses no wall as thick as a cell. The point lies on the void's side, less than a unit from the solid. The ray ends
- * at the world's border. */
+ * search finds every solid that the ray crosses over a length of at least a sixteenth of a cell and at least one unit;
+ * so it finds every wall as thick as a cell. The point lies on the void's side, less than a unit from the solid. The
+ * ray ends at the world's border. */
 SGM_API sgm_result sgm_field_ray_cast(sgm_field* field, const sgm_ray_desc* desc, sgm_surface_point* out,
                                       sgm_error* error);
 
@@ -674,8 +675,8 @@ typedef struct sgm_closest_desc {
   { SGM_SIZEOF(sgm_closest_desc), SGM_NULL, {0.0, 0.0, 0.0}, 1.0 }
 
 /* Finds the surface point nearest to a position in the void or in the solid. Searches the surface that the samples of
- * level 0 show. No part of this surface is nearer than the result by more than a quarter of a cell plus 1/64 of the
- * distance; usually the result is exact to a unit. The work grows with the square of the distance found. */
+ * level 0 show. The result is farther away than the nearest point of this surface by at most a quarter of a cell plus
+ * 1/64 of the distance; usually it is exact to a unit. The work grows with the square of the distance found. */
 SGM_API sgm_result sgm_field_closest_point(sgm_field* field, const sgm_closest_desc* desc, sgm_surface_point* out,
                                            sgm_error* error);
 
@@ -714,10 +715,11 @@ typedef struct sgm_walkable {
   { SGM_SIZEOF(sgm_walkable), SGM_NULL, 0, 0, 0.0, 0.0 }
 
 /* Finds out where a walker can stand in a box, and how large the largest connected floor is. Uses the samples of level
- * 0, which are a cell apart. The walker can stand on a column of samples if there is a floor in the box (solid below
- * void) whose normal is within the slope, void above it for the walker's height, and, within the walker's radius, no
- * solid that is higher than its step (plus the rise of the slope up to there) and lower than its head. Neighbouring
- * columns are connected if their floors differ in height by at most the step plus the rise of the slope over a cell. */
+ * 0, which are a cell apart. The walker can stand on a column of samples under three conditions: there is a floor in
+ * the box (solid below void) whose normal is within the slope; there is only void from the floor up to the walker's
+ * height; and within the walker's radius no solid lies above the height of its step (plus the rise of the slope up to
+ * there) and below its head. Neighbouring columns are connected if their floors differ in height by at most the step
+ * plus the rise of the slope over a cell. */
 SGM_API sgm_result sgm_field_is_walkable(sgm_field* field, const sgm_walk_desc* desc, sgm_walkable* out,
                                          sgm_error* error);
 
@@ -816,7 +818,7 @@ SGM_API sgm_result sgm_mesh_release(sgm_mesh* mesh);
  * The key is { corner, level, axis, fan }. With positions in units (possibly fractional) and each level's cell edge:
  *   own      level is the chunk's own; axis the one coordinate that is not a multiple of its cell; corner the position
  *            rounded down to multiples of that cell; fan 0
- *   coarser  the same with level + 1 and its cell
+ *   coarser  as own, but with level + 1 and the cell of that level
  *   lateral  level is the chunk's own; axis 3; corner the position itself, a multiple of the cell of level + 1. fan
  *            distinguishes the vertices at one corner, each of which joins seams that meet in an edge or a corner of
  *            the chunk. Around the corner lie 8 blocks, one per octant, and between octants that share a face lie 12
@@ -826,12 +828,12 @@ SGM_API sgm_result sgm_mesh_release(sgm_mesh* mesh);
  *            lowest number of those joined to this vertex's own seam. sgm_chunk_request.coarser says which blocks are
  *            coarser.
  *   feature  with sharp features: a point of an edge or a corner of the surface, in a face of the grid or in a cell. A
- *            body has it once for each side of its crease, a seam once; vertices with equal keys are one. level is the
- *            chunk's own, or the one above if bit 13 of kind is set (only in seams); axis is 7 in a cell (bit 14), else
- *            4 + bits 6 and 7. fan is bits 6 to 9 in a cell, else bits 8 to 11. corner is, on each axis, the position
- *            rounded down to multiples of the level's cell, minus (b - 1) of these cells, where b is the two bits from
- *            2 * axis: a feature may lie up to a cell beyond its face or cell, but no feature of a body lies beyond its
- *            chunk */
+ *            body has a copy of the vertex for each side of the crease, a seam has one; vertices with equal keys count
+ *            as one vertex. level is the chunk's own, or the one above if bit 13 of kind is set (only in seams). axis
+ *            is 7 in a cell (bit 14), else 4 + bits 6 and 7. fan is bits 6 to 9 in a cell, else bits 8 to 11. corner
+ *            is, on each axis, the position rounded down to multiples of the level's cell, minus (b - 1) of these
+ *            cells, where b is the number in the two bits of kind that begin at bit 2 * axis: a feature may lie up to a
+ *            cell beyond its face or cell, but no feature of a body lies beyond its chunk */
 typedef enum sgm_vertex_kind {
   SGM_VERTEX_OWN = 0,          /* on an edge of the chunk's own level; every vertex of a body, except feature
                                   vertices */
@@ -870,9 +872,9 @@ typedef struct sgm_instance_batch {
 
 /* A vertex with texture coordinates in one texture chart, and with one pair of materials. Coordinates count tiles of 1
  * m, for repeating textures: u x v points out of the solid, so textures are never mirrored. Whole tiles may be
- * subtracted from coordinates, so that floats are precise to 1/4,096 at any distance from the origin: adjacent chunks
- * agree on coordinates up to whole tiles, and on shares exactly. A seam's vertices on edges of the coarser level are
- * textured like the coarser chunks, unless the two levels have different shapes there. */
+ * subtracted from coordinates, so that floats are precise to 1/4,096 at any distance from the origin: in adjacent
+ * chunks, the coordinates of the same point may differ by whole tiles; shares are equal. A seam's vertices on edges of
+ * the coarser level are textured like the coarser chunks, unless the two levels have different shapes there. */
 typedef struct sgm_wedge {
   uint32_t vertex; /* index of the vertex in the mesh */
   float u, v;
@@ -972,8 +974,8 @@ typedef struct sgm_region_desc {
 SGM_API sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc, sgm_surface** out,
                                            sgm_error* error);
 
-/* A grid of samples of the caller. Value (i, j, k) is values[i + j * stride_y + k * stride_z] and lies at (i, j, k) *
- * cell. */
+/* A grid of samples that the caller provides. Sample (i, j, k) has the value values[i + j * stride_y + k * stride_z]
+ * and the position (i * cell, j * cell, k * cell). */
 typedef struct sgm_grid_desc {
   uint32_t struct_size;
   const void* next;
@@ -1041,11 +1043,11 @@ SGM_API uint64_t sgm_surface_hash(const sgm_surface* surface);
 
 /* Path search: can an agent (a ball) move from one place to another through the void of a region, and on which path?
  * The search uses the samples of level 0, which are a cell apart. A sample is free for the agent if no solid sample
- * lies within its radius; with radius 0 all of the void is free. Free samples are connected along the axes and across
- * the diagonals of cell faces, in the same way as meshes connect voids. So a path is accurate to within a few cells:
- * between two successive samples of the path, solid samples may be nearer than the radius by up to 0.71 cells, and the
- * surface lies up to 1.74 cells before a solid sample, usually less than one. A given position is replaced by the
- * nearest void sample of the eight around it; if none of them is void, the position is in rock. */
+ * lies within the agent's radius of it; with radius 0 all of the void is free. Free samples are connected along the
+ * axes and across the diagonals of cell faces, in the same way as meshes connect voids. So a path is accurate to within
+ * a few cells: between two successive samples of the path, solid samples may be nearer than the radius by up to 0.71
+ * cells, and the surface lies up to 1.74 cells before a solid sample, usually less than one. A given position is
+ * replaced by the nearest void sample of the eight around it; if none of them is void, the position is in rock. */
 
 typedef enum sgm_way_verdict {
   SGM_WAY_FOUND = 0,
@@ -1115,13 +1117,14 @@ typedef struct sgm_way {
 
 /* Finds a path. Its places are samples of level 0, each joined with the previous one, from the sample of `from` to that
  * of `to`: a short path, though not always the shortest. The search goes through the region along its longest axis.
- * Memory: the signs of the samples of about two layers of chunks across that axis, with one chunk around them (8.7 KB
- * per chunk that the surface crosses); the faces of one layer (2.2 KB for each that a void touches, 17 times that with
- * SGM_WAY_WIDEST); for the whole region about 300 bytes for each void of each chunk (450 with SGM_WAY_WIDEST), and the
- * field's cache of derived cells; for the path 12 bytes per place, up to 300 per chunk, and up to 20 MB during its
- * search. The answer is the same on every machine and with any number of threads. Blocks; uses the job system. Returns
- * SGM_OK also if there is no path: the verdict says why. SGM_INCOMPLETE: places was too small; it holds the first ones.
- * SGM_ERR_RANGE: the region, with one chunk around it, leaves the world. On failure `out` is unchanged. */
+ * Memory: the signs of the samples of about two layers of chunks perpendicular to that axis, and of one more chunk on
+ * every side (8.7 KB per chunk that the surface crosses); the faces of one layer (2.2 KB for each that a void touches,
+ * 17 times that with SGM_WAY_WIDEST); for the whole region about 300 bytes for each void of each chunk (450 with
+ * SGM_WAY_WIDEST), and the field's cache of derived cells; for the path 12 bytes per place, up to 300 per chunk, and up
+ * to 20 MB during its search. The answer is the same on every machine and with any number of threads. Blocks; uses the
+ * job system. Returns SGM_OK also if there is no path: the verdict says why. SGM_INCOMPLETE: places was too small; it
+ * holds the first ones. SGM_ERR_RANGE: the region, with one chunk around it, leaves the world. On failure `out` is
+ * unchanged. */
 SGM_API sgm_result sgm_field_find_way(sgm_field* field, const sgm_way_desc* desc, sgm_way* out, sgm_error* error);
 
 /* ------------------------------------------------------------------------------------------ measures: of any mesh */
@@ -1423,8 +1426,8 @@ SGM_API sgm_result sgm_world_set_viewers(sgm_world* world, const sgm_viewer* vie
  * system refuses runs immediately in this call). Delivers at most max_bytes of vertices and indices; a larger frame of
  * changes takes several updates, and the drawn chunks change with the last of them.
  * A small max_bytes delays meshes, but loses none: a mesh larger than max_bytes is delivered as the first one of an
- * update, and its excess is subtracted from the following updates. So any k updates deliver at most the sum of their
- * max_bytes plus one mesh.
+ * update, and its excess is subtracted from the max_bytes of the following updates. So any k updates deliver at most
+ * the sum of their max_bytes plus one mesh.
  * All worlds of a runtime take turns in planning, which uses a quarter of the workers' time while there is enough to
  * mesh: more frequent updates, or more worlds, do not keep the workers from meshing. SGM_INCOMPLETE, without any
  * effect: events of the previous update have not all been polled. SGM_ERR_INVALID_ARGUMENT: max_bytes is 0. */
@@ -1519,17 +1522,17 @@ SGM_API sgm_result sgm_world_wait_idle(sgm_world* world, sgm_progress_function p
                                        sgm_error* error);
 
 /* Replaces the world's field by a field with other parameters, of an edited grammar (hot reload), or with other host
- * fields. Jobs find the differences; only chunks that these affect are meshed again (counted by
+ * fields. Jobs find the differences; only chunks that the differences affect are meshed again (counted by
  * sgm_world_stats.chunks_outdated), and all of them are replaced in one frame of changes. Never waits, so a parameter
  * can be set ten times a second: if fields are set faster than they can be drawn, all but the last are skipped, and
  * half of the jobs' time remains for new chunks around the viewers. Without viewers the field is not drawn until there
  * are some. If a chunk of the new field cannot be made (SGM_EVENT_FAILED), the world returns to the previous field.
- * sgm_world_stats.field_drawn tells which of these fields is drawn; until the new one is, the names of materials, tags
- * and anchors are those of the previous grammar. Edits stay, and keep the numbers of their materials and tags; a number
- * that the new grammar lacks has no name there. The world keeps the backend that it was created with, and each field
- * for as long as it needs it. Up to five fields may exist at the same time, each with a cache
- * (sgm_field_desc.cache_bytes); they share equal derived cells. Everything that host fields use must live as long as
- * the world, which may return to a previous field. Values of a host field must not change without a change of its
+ * sgm_world_stats.field_drawn tells which of these fields is drawn; until the new field is drawn, the names of
+ * materials, tags and anchors are those of the previous grammar. Edits stay, and keep the numbers of their materials
+ * and tags; a number that the new grammar lacks has no name there. The world keeps the backend that it was created
+ * with, and keeps each field alive while it needs the field. Up to five fields may exist at the same time, each with a
+ * cache (sgm_field_desc.cache_bytes); they share equal derived cells. Everything that host fields use must live as long
+ * as the world, which may return to a previous field. Values of a host field must not change without a change of its
  * identity; host fields of identity 0 always count as changed.
  * A journal belongs to the field with which the world was created: to open it again, create the world with that field,
  * then set the other field. The disk cache keeps chunks of every field: use none for a world whose parameters change
@@ -1584,11 +1587,11 @@ SGM_API sgm_result sgm_world_edit(sgm_world* world, const sgm_brush* brush, sgm_
 SGM_API sgm_result sgm_world_undo(sgm_world* world, const sgm_edit_id* id, sgm_edit_id* undone, sgm_error* error);
 
 /* Returns the known edits in their order of arrival, except for the first `since`, as bytes for another world with the
- * same grammar, parameters, seed and cell. The other world may also have a new version of the grammar (which refuses
- * the journals of the previous one), if the edited places still suit it. *count is the capacity of `bytes` on entry,
- * and the number of bytes on return. If bytes is NULL, only *count is set. SGM_INCOMPLETE: the bytes did not fit;
- * nothing was written. sgm_world_stats.edits is the number of known edits: pass its value at the previous export as
- * `since`, to export only newer edits. */
+ * same grammar, parameters, seed and cell. The other world may also have a new version of the grammar if the edited
+ * places still suit it (such a world would refuse the journals of the previous version). *count is the capacity of
+ * `bytes` on entry, and the number of bytes on return. If bytes is NULL, only *count is set. SGM_INCOMPLETE: the bytes
+ * did not fit; nothing was written. sgm_world_stats.edits is the number of known edits: pass its value at the previous
+ * export as `since`, to export only newer edits. */
 SGM_API sgm_result sgm_world_export_edits(sgm_world* world, uint64_t since, void* bytes, size_t* count,
                                           sgm_error* error);
 

@@ -15,8 +15,8 @@ constexpr size_t kVertexBytes = 28;   // bytes per vertex: position, normal, tag
 constexpr size_t kTextureBytes = 12;  // additional bytes per vertex with a texture: coordinates, blend
 constexpr size_t kColourBytes = 8;    // additional bytes per vertex of a primitive with two materials: colour
 
-/// The triangles of one material, or of a pair of materials. Vertices are renumbered in the order in which the
-/// triangles use them.
+/// The triangles of one material, or of a pair of materials. The primitive's own vertices are in the order in which its
+/// triangles first use them.
 struct Primitive {
   std::array<uint16_t, 2> materials{};
   size_t vertex_size = kVertexBytes;
@@ -25,7 +25,7 @@ struct Primitive {
   Float3 low{}, high{};
 
   bool blends() const { return materials[0] != materials[1]; }
-  // Index 65535 is reserved for primitive restart.
+  // True if 16-bit indices suffice. Index 65535 is not available, because it means primitive restart.
   bool shortIndices() const { return vertices.size() <= 65535; }
   size_t indexBytes() const { return indices.size() * (shortIndices() ? 2 : 4); }
   size_t paddedIndexBytes() const { return (indexBytes() + 3) / 4 * 4; }
@@ -123,8 +123,8 @@ std::string extrasText(const WorldMesh& mesh, const ExportInfo& info) {
          "],\"tags\":" + listOf(info.tags.size(), [&](size_t i) { return quoted(info.tags[i]); }) + "}}";
 }
 
-/// Returns the material of a primitive as JSON. For a pair of materials it is white, because the vertices have the
-/// colours.
+/// Returns the material of a primitive as JSON. If the primitive blends two materials, its base colour is white,
+/// because the colours are in the vertices.
 std::string materialText(const ExportInfo& info, const Primitive& primitive) {
   const ExportMaterial first = materialAt(info, primitive.materials[0]);
   const ExportMaterial second = materialAt(info, primitive.materials[1]);
@@ -133,7 +133,8 @@ std::string materialText(const ExportInfo& info, const Primitive& primitive) {
   };
   const bool pictured = info.texture != nullptr && !info.texture->png.empty();
   const float roughness = (std::clamp(first.roughness, 0.0f, 1.0f) + std::clamp(second.roughness, 0.0f, 1.0f)) / 2;
-  // The extras name both materials, for importers that use materials of their own instead of the vertices' colours.
+  // Custom data ("extras") that names both materials: an importer may then blend materials of its own instead of the
+  // vertices' colours.
   const std::string extras = !primitive.blends() ? ""
                                                  : ",\"extras\":{\"sgm\":{\"materials\":[" + quoted(first.name) + ',' +
                                                        quoted(second.name) + "],\"shareOfSecond\":\"_BLEND.w\"}}";
@@ -143,7 +144,8 @@ std::string materialText(const ExportInfo& info, const Primitive& primitive) {
          "\"metallicFactor\":0,\"roughnessFactor\":" + decimalText(roughness) + '}' + extras + '}';
 }
 
-/// Buffer views 2p and 2p + 1 are the vertices and indices of primitive p; the last one is a texture's image.
+/// Returns the glTF scene as JSON. Buffer views 2p and 2p + 1 are the vertices and indices of primitive p; an
+/// additional last view is the image of the texture, if there is one.
 std::string sceneText(const WorldMesh& mesh, const ExportInfo& info, const std::vector<Primitive>& primitives,
                       size_t buffer_bytes) {
   std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":" + quoted(info.generator) +

@@ -11,7 +11,8 @@ namespace {
 /// generator.
 constexpr const char* kSecondLine = "# origin_units ";
 
-/// Returns the name of a material without white space, at which many readers end the names in usemtl and newmtl.
+/// Returns the name of a material without white space, because many readers end the names in usemtl and newmtl at white
+/// space.
 std::string materialWord(const ExportInfo& info, uint16_t index) {
   std::string word = oneLine(materialAt(info, index).name);
   for (char& c : word)
@@ -66,8 +67,8 @@ Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::
       file.write(line + '\n');
     }
   }
-  // Both files are complete on the disk before either gets its final name, and the .mtl is renamed first: the .obj
-  // never refers to a missing .mtl.
+  // Completes both files on the disk before it gives either of them its final name. The .mtl is renamed first, so that
+  // the .obj never refers to a missing .mtl.
   if (Result<void> done = library.finish(); !done) return done;
   if (Result<void> done = file.finish(); !done) return done;
   if (Result<void> done = library.commitReversibly(); !done) return done;
@@ -85,7 +86,7 @@ std::string materialLibraryName(const std::filesystem::path& obj) {
     if (!plain) c = '_';
   }
   if (name == stem) return name + ".mtl";
-  // The replacement may make different names equal, so the hash of the original name is added.
+  // Different names may have become equal by the replacement of characters, so a hash of the original name is appended.
   constexpr char kDigits[] = "0123456789abcdef";
   name += '_';
   const uint64_t hash = hashText(stem);

@@ -25,8 +25,8 @@ struct BakedPart {
 /// The keys under which stores may contain the parts of a world.
 struct BakedWorld {
   DiskKey key;
-  /// Returns the key that version 0.2 of the library gave to this world, which may take milliseconds. It is called only
-  /// for stores that have no data under `key`. Null if there is no such key.
+  /// Returns the key that version 0.2 of the library gave to this world. A call may take milliseconds; it is made only
+  /// for stores that have no data under `key`. Null if this world has no former key.
   std::function<DiskKey()> former_key{};
 };
 
@@ -49,8 +49,8 @@ class BakedParts {
   virtual std::optional<BakedPart> get(const BakedWorld& world, const ChunkKey& chunk, int part, Reach reach,
                                        std::pmr::memory_resource* memory) = 0;
 
-  /// The caller reports that the part which get() returned for these arguments is invalid. The hit is then counted as a
-  /// damaged miss instead, and get() does not return the part again.
+  /// Call this if the part that get() returned for these arguments proves invalid. Counts the hit as a damaged miss
+  /// instead; from now on get() does not return this part again.
   virtual void reject(const BakedWorld& world, const ChunkKey& chunk, int part, Reach reach) = 0;
 
   /// True if some parts may be on servers. Then get() may be slow, so a disk cache should be searched first. Never

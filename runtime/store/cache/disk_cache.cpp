@@ -17,7 +17,7 @@ namespace {
 // The minimum size limit of a set (a group of the cache's subfolders), in bytes. This is enough for thousands of
 // chunks, so that random keys fill all sets evenly. Listing the files of such a set takes 10 ms.
 constexpr uint64_t kLeastShare = uint64_t{16} << 20;
-constexpr uint64_t kSlack = 8;  // an eviction frees at least this fraction (1 / kSlack) of a set's size limit
+constexpr uint64_t kSlack = 8;  // an eviction frees at least 1 / kSlack of a set's size limit
 
 class FileCache final : public DiskCache {
  public:
@@ -87,8 +87,8 @@ class FileCache final : public DiskCache {
   /// A group of shards (subfolders), which has its own part of the cache's size limit.
   struct Set {
     std::mutex mutex;
-    uint64_t bytes = 0;    ///< total size of the set's entries: those found by the last listing, and those written
-                           ///< since
+    /// total size of the set's entries: those of the last listing, plus those that this process wrote since
+    uint64_t bytes = 0;
     uint64_t writing = 0;  ///< total size of the entries that are being written
     uint64_t allowed = 0;  ///< number of bytes that may be written before the folders are listed again
   };
@@ -96,7 +96,8 @@ class FileCache final : public DiskCache {
   size_t setSize() const { return DiskFolder::kShards / sets_; }
   Set& setOf(const DiskKey& key) { return all_sets_[DiskFolder::shardOf(key) / setSize()]; }
 
-  /// Reserves bytes of a set while an entry is written. Converts to false if the set has no space for the entry.
+  /// Reserves space in a set while an entry is written; the destructor releases it. Converts to false if the set has no
+  /// space for the entry.
   class Room {
    public:
     Room(FileCache& cache, Set& set, uint64_t bytes) : cache_(cache), set_(set), bytes_(bytes) {
@@ -117,7 +118,7 @@ class FileCache final : public DiskCache {
     }
     explicit operator bool() const { return held_; }
 
-    /// Counts the reserved bytes as used, once the entry is written.
+    /// Call this once the entry is written: the reserved bytes then count as used.
     void fill() {
       const std::lock_guard lock(set_.mutex);
       cache_.setBytes(set_, set_.bytes + bytes_);
@@ -132,8 +133,8 @@ class FileCache final : public DiskCache {
     bool held_ = false, filled_ = false;
   };
 
-  /// Lists the entries of a set. If `bytes` further bytes would exceed its size limit, removes the least recently used
-  /// entries. Then sets how many bytes may be written until the next listing.
+  /// Lists the entries of a set. If the set would exceed its size limit with `bytes` more bytes, removes its least
+  /// recently used entries. Then sets how many bytes may be written to the set before its entries are listed again.
   void makeRoom(Set& set, uint64_t bytes) {
     std::pmr::vector<DiskFile> files(memory_);
     uint64_t total = set.writing;
@@ -169,7 +170,7 @@ class FileCache final : public DiskCache {
     ++(stats_.*what);
   }
 
-  /// Ignores the error that a file does not exist: it was never stored, or another process has removed it.
+  /// Treats "the file does not exist" as success (0): the entry was never stored, or another process has removed it.
   static int unlessGone(int error) { return error == ENOENT ? 0 : error; }
 
   /// Returns true if `error` is not 0. Counts the error, and logs it if it is the first one.

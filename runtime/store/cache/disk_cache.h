@@ -42,10 +42,10 @@ struct DiskCacheStats {
   uint64_t hits = 0, misses = 0;  ///< each call of get() counts as either a hit or a miss
   uint64_t damaged = 0;           ///< number of misses because the stored data was invalid
   uint64_t stored = 0;
-  uint64_t dropped = 0;  ///< number of entries that were not stored: too large, or not enough space
+  uint64_t dropped = 0;  ///< number of entries that were not stored, because they were too large or space was lacking
   uint64_t evicted = 0;
   uint64_t errors = 0;  ///< number of errors: of the file system, or out of memory
-  /// total size of the entries, only in sets that this process has written to
+  /// total size of the entries in those sets of folders to which this process has written
   uint64_t bytes = 0;
 };
 
@@ -75,8 +75,8 @@ class DiskCache {
   /// entry's file. Does not wait for other threads.
   virtual std::optional<std::pmr::vector<std::byte>> get(const DiskKey& key, std::pmr::memory_resource* memory) = 0;
 
-  /// The caller reports that the content which get() returned is wrong for the key. Removes the entry; the hit is
-  /// counted as a damaged miss instead.
+  /// Call this if the content that get() returned proves wrong for the key. Removes the entry, and counts the hit as a
+  /// damaged miss instead.
   virtual void reject(const DiskKey& key) = 0;
 
   /// Stores the content, unless the entry already exists. Waits for the disk, so do not call it on a rendering thread.

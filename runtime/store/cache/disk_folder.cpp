@@ -80,14 +80,15 @@ int DiskFolder::write(const DiskKey& key, std::span<const std::byte> file) const
     opened = create();
   }
   if (opened < 0 && errno == EEXIST) {
-    // The temporary file exists: another process is writing the entry, or was killed while writing it.
+    // The temporary file already exists: another process is writing the entry now, or was killed while it wrote the
+    // entry. In the second case the file is old; it is removed and created anew.
     if (platform::statusAt(part, there, false) != 0 || !isLeft(there) || platform::removeFile(part) != 0) return EEXIST;
     opened = create();
   }
   if (opened < 0) return errno;
   // This process has created the temporary file, so no other process can write the entry now.
   int error = platform::statusAt(name, there, false) == 0 ? EEXIST : send(opened, file);
-  // Some file systems report only at closing a file that the disk is full.
+  // Some file systems report a full disk only when the file is closed.
   if (platform::closeFile(opened) != 0 && error == 0) error = errno;
   if (error == 0 && platform::replaceFile(part, name) != 0) error = errno;
   if (error != 0) platform::removeFile(part);
@@ -110,7 +111,8 @@ int DiskFolder::list(size_t shard, std::pmr::vector<DiskFile>& files, uint64_t& 
     const std::optional<DiskKey> key = keyOfName(name, shard);
     if (!key) continue;
     platform::FileStatus there;
-    if (platform::statusAt(entry->path(), there, false) != 0) continue;  // another process has removed the file
+    // skip the entry: another process has removed its file
+    if (platform::statusAt(entry->path(), there, false) != 0) continue;
     if (!part) {
       files.push_back({there.changed_ns, *key, there.bytes});
     } else if (!isLeft(there) || platform::removeFile(entry->path()) != 0) {

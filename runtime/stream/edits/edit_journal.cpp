@@ -66,8 +66,8 @@ Result<void> checkHead(const fs::path& path, std::span<const std::byte> bytes, c
   const auto grammar = in.get<uint64_t>(), seed = in.get<uint64_t>();
   if (in.get<uint64_t>() != checksum(bytes.first(kHeadBytes - 8))) return bad("its header is damaged");
   const auto isOtherGrammar = [&] { return grammar != world.grammar && (!former || grammar != former()); };
-  // The grammar's hash also covers the seed and the cell size, so it is compared last: a message that names the seed or
-  // the cell size is more precise.
+  // The grammar's hash also depends on the seed and the cell size. So these two are compared first, to name them in the
+  // message if one of them is the difference.
   const char* differs = seed != world.seed      ? "seed"
                         : of.cell != world.cell ? "finest cell"
                         : isOtherGrammar()      ? "grammar, other parameters or other host fields"
@@ -100,8 +100,8 @@ std::optional<std::pair<EditOperation, size_t>> getRecord(std::span<const std::b
   return std::pair(*operation, kRecordHead + length);
 }
 
-/// Opens and locks the file. Repeats this until the locked file is the one at this path, because another process may
-/// replace the file in between.
+/// Opens and locks the file at this path. Another process may replace the file between opening and locking, so this is
+/// repeated until the locked file is the one at the path.
 Result<File> openLocked(const fs::path& path) {
   for (int i = 0; i < kMaxTries; ++i) {
     File file(platform::openFile(path, platform::kRead | platform::kWrite | platform::kCreate));
@@ -136,8 +136,8 @@ struct Written {
   int error = 0;     ///< errno if writing failed, otherwise 0
 };
 
-/// Writes the bytes at offset `at`, and blocks until they are on disk. If an error occurs, the result counts the bytes
-/// that are on disk nevertheless.
+/// Writes the bytes at offset `at`, and blocks until they are on disk. After an error, Written::bytes is the number of
+/// bytes that are on disk nevertheless.
 Written writeDurably(int file, std::span<const std::byte> bytes, uint64_t at) {
   Written done;
   while (done.bytes < bytes.size() && done.error == 0) {
@@ -155,7 +155,8 @@ struct WholeRecords {
   size_t count = 0, bytes = 0;
 };
 
-/// Counts complete records. Precondition: the bytes are valid records; only the last one may be incomplete.
+/// Counts the complete records at the start of these bytes. Precondition: the bytes are a series of valid records, of
+/// which only the last one may be incomplete.
 WholeRecords wholeRecords(std::span<const std::byte> bytes) {
   WholeRecords whole;
   while (bytes.size() - whole.bytes >= kRecordHead) {
@@ -176,7 +177,8 @@ Result<void> writeWhole(const fs::path& path, std::span<const std::byte> bytes) 
   return {};
 }
 
-/// Copies a damaged file to a new name. Precondition: this process holds the journal's lock.
+/// Copies the content of a damaged journal to a file with a new name, and returns the path of this file. Precondition:
+/// this process holds the journal's lock.
 Result<fs::path> setAside(const fs::path& path, std::span<const std::byte> bytes) {
   for (int i = 1; i <= kMaxTries; ++i) {
     fs::path aside = path;
@@ -205,7 +207,7 @@ Result<OpenedJournal> EditJournal::open(const fs::path& given, const WorldIdenti
   OpenedJournal opened;
   const Bytes head = headOf(world);
   if (bytes->size() < kHeadBytes && std::equal(bytes->begin(), bytes->end(), head.begin())) {
-    // The file is new, or a process was killed before it had written the whole header.
+    // The file is new, or a process was killed before it had written the whole header. So the header is written now.
     if (const Written written = writeDurably(file->number(), head, 0); written.error != 0)
       return ioError(path, written.error);
     platform::syncFolder(path.parent_path());  // without this, the file's new name may be lost in a power failure
@@ -221,7 +223,8 @@ Result<OpenedJournal> EditJournal::open(const fs::path& given, const WorldIdenti
     whole += record->second;
   }
   const size_t rest = all.size() - whole;
-  const bool damaged = rest > kMaxRecordBytes;  // an incompletely written last operation would be shorter
+  // a last record that was not completely written is shorter than kMaxRecordBytes, so a longer rest means damage
+  const bool damaged = rest > kMaxRecordBytes;
   if (damaged) {
     Result<fs::path> aside = setAside(path, all);
     if (!aside) return aside.error();
@@ -260,7 +263,7 @@ EditJournal::~EditJournal() {
   try {
     (void)flush();
   } catch (const std::bad_alloc&) {
-    // A destructor cannot report errors, but everything that was flushed before is on disk.
+    // A destructor cannot report the error. Only edits that were not flushed before are lost.
   }
   platform::closeFile(file_);
 }

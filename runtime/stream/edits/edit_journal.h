@@ -31,16 +31,17 @@ class EditJournal {
  public:
   /// Opens or creates the file. A damaged file is copied to another name, and the journal continues with the content
   /// before the damage. If most operations are superseded (essentialEdits), the file is rewritten without them. former:
-  /// called only if the file's grammar hash differs from `world.grammar`; its result is accepted too, and the file
-  /// keeps this hash until it is rewritten. May be null. Errors: io if the file cannot be read or written, or the disk
-  /// is full; bad_input if it is not a journal, or is of another version or world (the file is not changed); limit if
-  /// the file is already open elsewhere, or larger than a gigabyte.
+  /// returns the grammar hash that version 0.2 of the library stored; may be null. It is called only if the file's
+  /// grammar hash differs from `world.grammar`. If the file's hash equals the result, the file is accepted too, and
+  /// keeps this hash until it is rewritten. Errors: io if the file cannot be read or written, or the disk is full;
+  /// bad_input if it is not a journal, or is of another version or world (the file is not changed); limit if the file
+  /// is already open elsewhere, or larger than a gigabyte.
   static Result<OpenedJournal> open(const std::filesystem::path& path, const WorldIdentity& world,
                                     const FormerGrammar& former = {});
 
   EditJournal(const EditJournal&) = delete;
   EditJournal& operator=(const EditJournal&) = delete;
-  ~EditJournal();  ///< Flushes the journal. Errors are lost, so call flush() before.
+  ~EditJournal();  ///< Flushes the journal. Cannot report errors, so call flush() before.
 
   /// Adds operations to a buffer in memory; never waits for the disk. If it throws std::bad_alloc, none is added.
   void append(std::span<const EditOperation> operations);
@@ -55,9 +56,11 @@ class EditJournal {
   const std::filesystem::path path_;
   const int file_;
   std::mutex appending_, writing_;
-  std::vector<std::byte> waiting_;    ///< appended operations that are not being written yet; guarded by appending_
-  std::vector<std::byte> unwritten_;  ///< operations that are being written; guarded by writing_
-  uint64_t size_;                     ///< size of the file on disk; guarded by writing_
+  /// encoded operations that append() has added and flush() has not taken yet; guarded by appending_
+  std::vector<std::byte> waiting_;
+  /// encoded operations that flush() has taken and that are not all on disk yet; guarded by writing_
+  std::vector<std::byte> unwritten_;
+  uint64_t size_;  ///< size of the file on disk; guarded by writing_
 };
 
 struct OpenedJournal {

@@ -9,7 +9,8 @@
 namespace sgm {
 namespace {
 
-/// The maximum number of changed shape groups that are stored per cell. If there are more, their bounds are joined.
+/// The maximum number of changed shape groups that are stored per cell. A cell with more changes stores only one box
+/// that encloses all of them.
 constexpr size_t kMaxChangesOfCell = 64;
 
 bool sameDomain(const Program& a, const Program& b) {
@@ -53,7 +54,8 @@ FieldChange::FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_
   pairLayers();
   const auto keepOthers = [this](std::span<const HostField> of, std::span<const HostField> other) {
     for (size_t i = 0; i < of.size(); ++i) {
-      // Host fields are compared in order, because the order matters: later ones lie on top of earlier ones.
+      // Host fields are compared index by index, because their order matters: a later field lies on top of the earlier
+      // ones.
       if (i >= other.size() || !sameHost(of[i], other[i])) hosts_.push_back(of[i]);
     }
   };
@@ -64,7 +66,8 @@ FieldChange::FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_
 void FieldChange::pairLayers() {
   const Program &before = *from_->settings().program, &after = *to_->settings().program;
   everything_ = !sameDomain(before, after);
-  // Index of the first layer of `after` that may still be paired: pairs must have the same order in both fields.
+  // Paired layers must have the same order in both fields: this is the index of the first layer of `after` that can
+  // still be paired.
   uint32_t next = 0;
   for (uint32_t i = 0; i < before.layers.size(); ++i) {
     const auto same = [&](const Layer& layer) { return sameCells(before, before.layers[i], after, layer); };
@@ -117,7 +120,7 @@ bool FieldChange::touches(const ChunkKey& key) const {
       const std::shared_ptr<const Changes> changes = changesIn(i, cell);
       touched = touched || std::any_of(changes->begin(), changes->end(),
                                        [&](const ChangedShape& change) { return touchesChunk(change, *grid, box); });
-      // The error only ends the iteration over cells, once a change is found.
+      // Not a failure: after a change is found, this error code only ends the iteration over cells.
       if (touched) return Error{Code::cancelled, ""};
       return {};
     };
@@ -150,17 +153,19 @@ FieldChange::Changes FieldChange::compare(const LayerPair& pair, Int3 cell) cons
                              std::shared_ptr<const DerivedCell>& held) {
     if (!layer) return true;
     Result<std::shared_ptr<const DerivedCell>> derived = field.cell(*layer, cell);
-    // Out of memory is passed on, because the result must not depend on the available memory.
+    // Out of memory is not counted as a change but thrown, because the result must not depend on the available memory.
     if (!derived && derived.error().code == Code::out_of_memory) throw std::bad_alloc();
     if (!derived) return false;
     held = std::move(*derived);
     content.chunk = &held->chunk;
     return true;
   };
-  // If a cell cannot be derived, all chunks that it can reach fail, so all of them count as changed.
+  // If a cell cannot be derived, meshing fails for every chunk within its reach. So all of these chunks count as
+  // changed.
   const Changes all{{IntBox::everything()}};
   if (!derive(*to_, pair.after, after, now)) return all;
-  // If the derivation of the cell has read no parameter that differs, the old cell is equal and need not be derived.
+  // If the new cell was derived without reading a parameter that differs, the old cell is equal and need not be
+  // derived.
   if (pair.before && now != nullptr && to_->derivesAlike(*from_, now->chunk.parameters)) return {};
   if (!derive(*from_, pair.before, before, old)) return all;
   return changedShapes(before, after);

@@ -26,22 +26,22 @@ class FieldChange {
 
   const std::shared_ptr<const WorldField>& to() const { return to_; }
 
-  /// Returns true if the chunk's mesh, seams or anchors may differ between the fields. Derives cells around the chunk
-  /// that are not cached, which takes time. A cell that cannot be derived counts as changed.
+  /// Returns true if the chunk's mesh, seams or anchors may differ between the fields. Derives the grammar cells around
+  /// the chunk unless they are cached; this takes time. A cell that cannot be derived counts as changed.
   bool touches(const ChunkKey& chunk) const;
 
  private:
   using Changes = std::vector<ChangedShape>;
-  /// A layer of each field, with the same name and cells; or a layer that only one field has (the other index is
-  /// nullopt).
+  /// Two corresponding layers, one in each field, which have the same name and cell size: their indices. For a layer
+  /// that only one field has, the index in the other field is nullopt.
   struct LayerPair {
     std::optional<uint32_t> before, after;
   };
 
   void pairLayers();
   bool shows(const LayerPair& pair, int32_t cell_edge) const;
-  /// True if the two layers of the pair differ in visibility (`detail`), at a level that affects chunks whose cells
-  /// have this edge in units.
+  /// True if only one of the two layers is shown in chunks with this cell edge (in units), or in the next coarser
+  /// chunks, because the layers have different `detail`.
   bool showsOtherwise(const LayerPair& pair, int32_t cell_edge) const;
   std::shared_ptr<const Changes> changesIn(uint32_t pair, Int3 cell) const;
   Changes compare(const LayerPair& pair, Int3 cell) const;

@@ -6,8 +6,8 @@ namespace sgm {
 
 namespace {
 
-/// Maximum number of unread changes. If there are more, they are merged, because a world without viewers may be edited
-/// endlessly without reading them.
+/// Maximum number of unread changes. If there are more, they are merged: without viewers a world reads no changes, but
+/// may be edited endlessly.
 constexpr size_t kMaxChanges = 4096;
 
 }  // namespace
@@ -70,7 +70,7 @@ Result<void> WorldEdits::merge(const Merge& from) {
       changed(*boxes);
     }
   } catch (const std::bad_alloc&) {
-    // Some operations may already have been merged, and it is unknown which, so the whole world counts as changed.
+    // Memory ran out after an unknown part of the operations was merged, so the whole world counts as changed.
     changed({&everything, 1});
     throw;
   }

@@ -35,18 +35,18 @@ std::optional<FoundBaked> fetchBaked(BakedParts& baked, const BakedWorld& world,
   return FoundBaked{std::move(*found), stored->is_far};
 }
 
-/// Copies a part that came from a server to the disk cache. Empty parts are not copied, because the record of their
-/// tile already contains them.
+/// Copies a part that came from a server to the disk cache. Parts without triangles are not copied: the store's record
+/// of their tile (block of 8 x 8 x 8 chunks) already contains them.
 void keepBaked(DiskCache& cache, const ChunkPartInputs& inputs, int part, const ChunkPart& found,
                std::pmr::memory_resource* memory) try {
   if (found.mesh.indices.empty()) return;
   cache.put(cache.keyOf(inputs.bytes(part)), encodeChunkPart(part, found.mesh, found.anchors, found.voids, memory));
 } catch (const std::bad_alloc&) {
-  // Out of memory: the part is not cached, and will be fetched from the server again.
+  // Memory ran out: the part is not cached, and the next request fetches it from the server again.
 }
 
-/// Searches a part in the disk cache and the stores. The disk cache comes first if a store is on a server; otherwise
-/// the stores come first.
+/// Looks up a part in the disk cache and in the stores. If a store is on a server, the disk cache is tried first;
+/// otherwise the stores are.
 std::optional<ChunkPart> lookUp(DiskCache* cache, BakedParts* baked, const BakedWorld& world,
                                 const ChunkPartInputs& inputs, int part, Reach reach,
                                 std::pmr::memory_resource* memory) {
@@ -72,8 +72,8 @@ void leaveOut(int part, ChunkRequest& request) {
   }
 }
 
-/// Stores the requested parts in the cache. If the chunk was proven solid or void without sampling, empty parts are not
-/// stored: the proof takes as long as reading a file, and a tenth of the time of writing one.
+/// Stores the requested parts in the cache. Exception: if the chunk was proven solid or void without sampling, its
+/// empty parts are not stored. Such a proof takes as long as reading a file, and a tenth of the time of writing one.
 void keep(DiskCache& cache, const ChunkPartInputs& inputs, const ChunkRequest& request, const PlacedChunk& chunk,
           const VoidComponents& voids, bool sampled, std::pmr::memory_resource* memory) try {
   const MeshParts meshes = partsOf(chunk.mesh);
@@ -84,7 +84,7 @@ void keep(DiskCache& cache, const ChunkPartInputs& inputs, const ChunkRequest& r
     cache.put(cache.keyOf(inputs.bytes(part)), encodeChunkPart(part, mesh, chunk.anchors, voids, memory));
   }
 } catch (const std::bad_alloc&) {
-  // Out of memory: the parts are not cached, and will be meshed again.
+  // Memory ran out: the parts are not cached, and the next request meshes them again.
 }
 
 void place(ChunkPart&& found, int part, PlacedChunk& chunk, VoidComponents& voids) {
@@ -105,8 +105,8 @@ ChunkRequest completed(ChunkRequest request, bool sharp) {
   return request;
 }
 
-/// Returns the inputs that identify a request's parts in the cache and stores; nullopt if the parts of such requests
-/// are not stored.
+/// Returns the inputs that identify the parts of a request in the cache and the stores; nullopt if these parts are
+/// never stored, for example parts from an inexact backend.
 std::optional<ChunkPartInputs> inputsOf(const ChunkMesher& mesher, const ChunkRequest& request,
                                         const EditSnapshot* edits) {
   if ((mesher.cache == nullptr && mesher.baked == nullptr) || !mesher.backend.capabilities().exact) return {};
@@ -132,8 +132,8 @@ Parts lookUp(const ChunkMesher& mesher, const ChunkPartInputs& inputs, Reach rea
   return found;
 }
 
-/// Returns the prefetched parts whose inputs have not changed since the prefetch; searches the others in the cache and
-/// in stores on this machine.
+/// Returns the prefetched parts whose inputs have not changed since the prefetch; looks up the other parts in the cache
+/// and in stores on this machine.
 Parts stillFound(const ChunkMesher& mesher, FoundParts&& found, const ChunkPartInputs& inputs) {
   Parts still;
   std::optional<Parts> near;
@@ -212,8 +212,8 @@ void complete(const ChunkMesher& mesher, InWork& work) {
   if (work.isToMesh()) {
     work.chunk.anchors.shrink_to_fit();
     if (work.rest.signs) work.voids = voidsOf(work.chunk.mesh);
-    // A request for seams only does not tell whether the chunk was sampled when its body was meshed; if the chunk
-    // already has a surface, it most likely was.
+    // `sampled` states whether the chunk's body had to be sampled. If only seams are requested, this is not known: then
+    // assume that it was sampled if the chunk already has a surface.
     const bool sampled = work.request.body ? !work.chunk.mesh.uniform : work.before != nullptr;
     if (work.inputs && mesher.cache != nullptr)
       keep(*mesher.cache, *work.inputs, work.rest, work.chunk, work.voids, sampled, mesher.memory);
@@ -223,8 +223,8 @@ void complete(const ChunkMesher& mesher, InWork& work) {
   }
 }
 
-/// Uploads to the device the parts that it has not meshed itself: parts from the disk, and parts that the CPU has
-/// meshed for it. If this fails, the parts are missing on the device, which is not an error.
+/// Uploads parts to the compute device that it has not meshed itself: parts from the disk, and parts that the CPU has
+/// meshed. If an upload fails, the device lacks these parts, which is not an error.
 void upload(Backend& backend, std::span<InWork> all) {
   std::vector<const MeshPart*> parts;
   std::vector<std::shared_ptr<const DevicePart>*> places;

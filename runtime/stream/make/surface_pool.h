@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// Owner of surfaces; destroyed together with its last surface. Thread-safe.
+/// Owns surfaces. Each surface keeps its pool alive. Thread-safe.
 class SurfacePool : public std::enable_shared_from_this<SurfacePool> {
  public:
   explicit SurfacePool(std::pmr::memory_resource* memory) : memory_(memory) {}

@@ -24,7 +24,7 @@ struct KnownChunk {
   uint64_t edited = 0;  ///< number of the last world state (WorldState::number) in which the chunk changed
   uint64_t wanted = 0;  ///< number of the last plan that needed the chunk
   uint64_t queued = 0;  ///< number of the last plan that requested the chunk
-  size_t queue_at = 0;  ///< index of the request in the queue of that plan
+  size_t queue_at = 0;  ///< index of the chunk's request in the queue of plan number `queued`
 
   /// Returns the memory of the chunk in bytes, including its entry in the store.
   size_t bytes() const {
@@ -46,13 +46,14 @@ class ChunkStore {
     if (is_new) record->second.edited = edits_;
     return record->second;
   }
-  /// Sets the state number at which new records count as last edited: an earlier record of the same chunk may have been
-  /// removed, so the state of its content is unknown.
+  /// Sets the number of the world state that new records get as the chunk's last change (`edited`). A new record cannot
+  /// know the chunk's real last change, since an earlier record of the chunk may have been removed.
   void setEdits(uint64_t number) { edits_ = number; }
   size_t size() const { return records_.size(); }
 
-  /// Removes records that no plan from number `since` on has needed, least recently needed first, until `bytes` bytes
-  /// are freed and at most `most` records are left, or no such record is left. Returns what was removed.
+  /// freeUnused() removes records that no plan since number `since` has needed, least recently needed first. It stops
+  /// when `bytes` bytes are freed and at most `most` records are left, or when there are no more records to remove. It
+  /// returns how much was removed.
   struct Freed {
     size_t bytes = 0;
     uint64_t never_drawn = 0;  ///< number of removed chunks whose body was meshed but never drawn

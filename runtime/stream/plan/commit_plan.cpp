@@ -6,10 +6,10 @@ namespace sgm {
 
 namespace {
 
-/// First builds a tree from everything that is ready. Then undoes changes that violate a rule of the octree or lack a
-/// seam, until there are none. An undone change is not made again: nodes of the committed tree are restored and stay,
-/// other nodes are removed and do not return. So the loop ends, at the latest with the committed tree, which satisfies
-/// all rules.
+/// Searches the next octree. First builds a tree with every change that is ready. Then undoes each change that violates
+/// a rule of the octree or lacks a seam, until no such change is left. An undone change is not made again: nodes of the
+/// committed tree are restored and stay, other nodes are removed and do not return. So the loop ends, at the latest
+/// with the committed tree, which satisfies all rules.
 class StepSearch {
  public:
   StepSearch(const Octree& committed, const Octree& target, const Readiness& ready)
@@ -39,7 +39,8 @@ class StepSearch {
   bool isVirtual(const ChunkKey& node) const { return node.level > target_.top(); }
   bool canBeLeaf(const ChunkKey& node) const { return isVirtual(node) || ready_.body(node); }
 
-  /// True if the target tree can be drawn in this node now, if necessary with coarser chunks in place of unready ones.
+  /// True if the target tree can be drawn within this node now. Coarser chunks may stand in for chunks that are not
+  /// ready.
   bool canPlace(const ChunkKey& node) const {
     if (committed_.isSplit(node) || canBeLeaf(node)) return true;
     return target_.isSplit(node) && canPlaceChildren(node);
@@ -52,7 +53,7 @@ class StepSearch {
     return true;
   }
 
-  /// Adds the part of the target tree in this node to the plan. Precondition: canPlace(node), and all ancestors are
+  /// Adds the part of the target tree within this node to the plan. Precondition: canPlace(node), and all ancestors are
   /// split in the plan.
   void place(const ChunkKey& node) {
     Octree& tree = plan_.tree;
@@ -61,13 +62,14 @@ class StepSearch {
       for (int i = 0; node.level > 1 && i < 8; ++i) place(childOf(node, i));
       return;
     }
-    // If a leaf of the target is not ready, the drawn chunks stay. If a node that the target splits is not completely
-    // ready, the drawn chunks stay as well, or a coarser chunk is drawn in its place.
+    // If a leaf of the target is not ready, the drawn chunks stay. If the target splits a node, but not everything
+    // inside the node is ready, the drawn chunks stay as well, or the node's own chunk is drawn instead.
     const bool keeps = target_.isSplit(node) ? committed_.isSplit(node) : !canBeLeaf(node);
     if (!keeps) tree.merge(node);
   }
 
-  /// Restores the committed tree in the highest ancestor of this node that the plan has merged.
+  /// If the plan has merged ancestors of this node, restores the committed tree below the coarsest one of them;
+  /// otherwise below the node itself.
   void restore(ChunkKey node) {
     while (!isVirtual(node) && !plan_.tree.isSplit(parentOf(node))) node = parentOf(node);
     restoreBelow(node);
@@ -117,7 +119,7 @@ class StepSearch {
       plan_.missing.push_back({leaf, missing});
       if (!committed_.isLeaf(leaf)) {
         undone = true;
-        // This leaf is not a leaf of the committed tree: it results from a split above it, or from a merge of drawn
+        // The committed tree does not have this leaf: the leaf results from a split above it, or from a merge of drawn
         // chunks.
         if (committed_.isSplit(leaf)) {
           restore(leaf);
@@ -126,7 +128,8 @@ class StepSearch {
         }
         continue;
       }
-      // This leaf is also a leaf of the committed tree, so a merge across one of its faces requires the missing seam.
+      // The committed tree also has this leaf, so the missing seam is needed only because the neighbour across a face
+      // was merged. That merge is undone.
       for (int face = 0; face < 6; ++face) {
         if (!(missing >> face & 1)) continue;
         ChunkKey neighbour = leaf;

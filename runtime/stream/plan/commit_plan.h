@@ -1,6 +1,6 @@
 #pragma once
-// Plans the next frame: the part of the target octree that can be drawn now, with all of its seams, such that every
-// change is complete.
+// Plans the next frame: applies those changes towards the target octree whose chunks and seams are all ready to be
+// drawn.
 
 #include <functional>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace sgm {
 
-/// Tells which chunks can be drawn. The functions are called for nodes of the committed tree, of the target tree, and
-/// between the two; their results must not change during a call of planCommit.
+/// Tells which chunks can be drawn. The functions are called for nodes of the committed tree and of the target tree,
+/// and for nodes on the levels between the two trees. Their results must not change during a call of planCommit.
 struct Readiness {
   std::function<bool(const ChunkKey&)> body;
   /// Returns the seams of a chunk that are ready to be drawn: bit (1 << Face).

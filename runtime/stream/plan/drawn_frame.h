@@ -16,8 +16,7 @@ struct DrawnChunk {
   ChunkKey key;
   std::shared_ptr<const ChunkSurface> surface;
   uint8_t seams = 0;          ///< mask of the drawn seams: bit (1 << Face)
-  Neighbourhood coarser = 0;  ///< if a seam is drawn: the blocks around the chunk that belong to coarser chunks;
-                              ///< otherwise 0
+  Neighbourhood coarser = 0;  ///< the blocks around the chunk that belong to coarser chunks; 0 if no seam is drawn
 };
 
 /// All chunks that are drawn at one time. Together, their bodies and drawn seams are a closed surface. Immutable.
@@ -40,8 +39,8 @@ DrawnFrame drawFrame(const Octree& tree, const SurfaceOfLeaf& surface);
 
 struct FrameChange {
   enum class Kind {
-    shown,     ///< the chunk is newly drawn
-    replaced,  ///< the chunk is drawn with another surface
+    shown,     ///< the chunk is drawn now, but was not drawn before
+    replaced,  ///< the chunk is still drawn, but with another surface
     seams,     ///< the chunk has the same surface, but other seams or other coarser neighbours
     removed,   ///< the chunk is no longer drawn; its surface is null
   };

@@ -1,6 +1,6 @@
 #pragma once
-// Lists the meshes that draw an octree: the body of each leaf, and its seams towards coarser leaves and outer virtual
-// nodes.
+// Lists the meshes that draw an octree: the body of each leaf, and its seams towards coarser leaves and towards virtual
+// nodes (undrawn roots, octree.h).
 
 #include <vector>
 

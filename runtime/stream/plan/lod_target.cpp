@@ -15,11 +15,11 @@ double edgeOf(int level, int32_t finest_cell) {
 }
 
 /// Splits the nodes that viewers need in finer detail. A node is tested only against viewers that are near enough to
-/// matter. These viewers are searched for each virtual node (the roots of the octree), and their list is filtered again
-/// at each finer level.
+/// matter. The viewers near each virtual node (root of the octree) are listed first; at each finer level, the list is
+/// filtered again.
 class TargetBuilder {
  public:
-  /// near: distance in units within which all levels are split; 0: each level has its own distance.
+  /// near: distance in units within which nodes of every level are split; 0: each level has its own distance.
   TargetBuilder(Octree& tree, std::span<const LodViewer> viewers, const LodSettings& settings, double near,
                 const ChunkSet* finest)
       : tree_(tree), viewers_(viewers), settings_(settings), near_(near), finest_(finest) {}
@@ -48,7 +48,8 @@ class TargetBuilder {
     return static_cast<int32_t>(std::clamp(std::floor(p), -67108864.0, 67108863.0));
   }
 
-  /// Appends the virtual nodes (roots of the octree) in which a viewer may need a split. number: index of the viewer.
+  /// Appends the virtual nodes (roots of the octree) that may have to be split for a viewer. number: index of the
+  /// viewer.
   void listNear(uint32_t number, std::vector<NearViewer>& near_nodes) const {
     const LodViewer& viewer = viewers_[number];
     const double edge = edgeOf(settings_.top + 1, settings_.finest_cell);
@@ -106,8 +107,8 @@ class TargetBuilder {
   const LodSettings& settings_;
   double near_;
   const ChunkSet* finest_;
-  std::vector<uint32_t> askers_;  ///< stack of viewer indices: those of the current node lie above those of its
-                                  ///< ancestors
+  std::vector<uint32_t> askers_;  ///< stack of viewer indices: the viewers of the current node lie above the viewers of
+                                  ///< its ancestors
 };
 
 /// Builds the octree of lodTarget() (near = 0), or of nearTarget() with near as its distance.

@@ -11,7 +11,8 @@ namespace sgm {
 /// A position around which detail is needed, in units (possibly fractional). All values are finite.
 struct LodViewer {
   std::array<double, 3> position{};
-  double reach = 1;  ///< factor on all distances of LodSettings, above 0; larger for a viewer with more weight
+  double reach = 1;  ///< factor, above 0, by which all distances of LodSettings are multiplied for this viewer; larger
+                     ///< for a more important viewer
   friend bool operator==(const LodViewer&, const LodViewer&) = default;
 };
 
@@ -20,7 +21,7 @@ struct LodSettings {
   int32_t finest_cell = kUnitsPerMetre / 2;
   /// Distance from a viewer, in units, within which level 0 is drawn; each coarser level is drawn up to twice the
   /// distance of the previous one. On a screen of h pixels with vertical field of view v, cells look at most p pixels
-  /// large if this distance is 2 * finest_cell h / (2 tan(v / 2)) / p.
+  /// large if this distance is 2 * finest_cell * h / (2 tan(v / 2)) / p.
   double finest_distance = 24.0 * kUnitsPerMetre;
   /// Distance from a viewer, in units, within which everything is drawn. The number of chunks grows with the cube of
   /// this distance, divided by the edge of the octree's root nodes (virtual nodes, octree.h); a coarser top level makes
@@ -29,13 +30,13 @@ struct LodSettings {
 };
 
 /// Returns the octree for these viewers, which satisfies the octree's rules; empty without viewers. A pure function.
-/// Virtual nodes that would extend beyond the world are not drawn. finest: level-1 nodes that viewers may split; null:
-/// all nodes.
+/// Virtual nodes that would extend beyond the world are not drawn. finest: the level-1 nodes that may be split (into
+/// level-0 chunks); null: all of them.
 Octree lodTarget(std::span<const LodViewer> viewers, const LodSettings& settings, const ChunkSet* finest = nullptr);
 
-/// Returns the coarsest octree (as by lodTarget()) that has level 0 within `distance` of each viewer (in units, above
-/// 0, times the viewer's reach): the chunks that a viewer needs to stand on. Never finer than lodTarget() with a
-/// finest_distance and a view_distance at least as large.
+/// Returns the coarsest octree (as by lodTarget()) that has level-0 chunks (on which a viewer can stand) within
+/// `distance` of each viewer. distance: in units, above 0; it is multiplied by the viewer's reach. The result is never
+/// finer than lodTarget() with a finest_distance and a view_distance at least as large.
 Octree nearTarget(std::span<const LodViewer> viewers, const LodSettings& settings, double distance,
                   const ChunkSet* finest = nullptr);
 

@@ -6,8 +6,9 @@
 // domain's own state (solid or void), the same everywhere. A virtual node that is not split is an outer neighbour of
 // the drawn chunks: a seam towards it closes their outer faces, in the same way as a seam between two levels.
 //
-// The rules (mesh/seam.h): the levels of chunks that share a face differ by at most one; and of the four nodes of one
-// level around an edge, two split and two unsplit nodes never lie diagonally opposite.
+// The rules (mesh/seam.h): the levels of chunks that share a face differ by at most one; and the four nodes of one
+// level around an edge never form a checkerboard, in which two diagonally opposite nodes are split and the other two
+// are not.
 
 #include <vector>
 
@@ -28,7 +29,7 @@ class Octree {
   /// True if the chunk of this node is drawn.
   bool isLeaf(const ChunkKey& node) const { return node.level <= top_ && isSplit(parentOf(node)) && !isSplit(node); }
   /// Returns the drawn chunk at a position (in units). If the virtual node there is not split, returns the chunk of the
-  /// top level.
+  /// top level, although it is not drawn.
   ChunkKey leafAt(Int3 place) const;
   /// True if the node can be split, because its virtual node lies inside the world.
   bool canSplit(const ChunkKey& node) const;
@@ -63,8 +64,8 @@ struct BrokenRule {
 /// Appends to `broken` the violations of the octree's rules next to a split node.
 void findBrokenRules(const Octree& tree, const ChunkKey& node, std::vector<BrokenRule>& broken);
 
-/// Splits further nodes until both rules hold. Where a split is impossible at the end of the world, merges the finer
-/// node instead.
+/// Splits further nodes until both rules hold. If a node at the end of the world cannot be split, merges the finer node
+/// beside it instead.
 void refineToRules(Octree& tree);
 
 /// Returns the faces of a drawn chunk where a seam is drawn, because they border a coarser chunk or a virtual node: bit

@@ -25,7 +25,7 @@ void PlanTurns::leave(Member& member) noexcept {
     if (member.plans_) expected_ -= member.expected_;
     --members_;
   }
-  // Another world may be waiting for the workers that have become free.
+  // The world that leaves has freed its workers; another world may be waiting for them.
   startDue();
 }
 
@@ -47,7 +47,7 @@ void PlanTurns::startDue(Clock::time_point now) {
     next.is_free_ = busy_ < workers;
     ++busy_;
     expected_ += next.expected_;
-    // Copied, because the member may be removed once the mutex is unlocked.
+    // Copy the pointer: `next` may be removed as soon as the mutex is unlocked.
     const std::shared_ptr<void> owner = next.owner;
     const auto begin = next.begin;
     lock.unlock();
@@ -61,8 +61,8 @@ void PlanTurns::pass(Clock::time_point now) {
   const double seconds = std::chrono::duration<double>(now - passed_until_).count();
   if (seconds <= 0) return;
   passed_until_ = now;
-  // Elapsed time raises the credit at most to the expected cost of the running plans. The limit must include this cost:
-  // otherwise a plan that a job system delays would block the plans of other worlds.
+  // As time passes, the credit grows, but at most to the expected cost of the plans that are running. If the limit were
+  // lower and the job system delayed a running plan, this plan would block the plans of other worlds.
   credit_ = std::min(std::max(expected_, credit_), credit_ + kTrickle * seconds);
 }
 
@@ -73,7 +73,7 @@ void PlanTurns::endPlan(Member& member, double seconds) noexcept {
   expected_ -= member.expected_;
   if (seconds <= 0) return;
   member.expected_ = seconds;
-  // A plan that began because a worker was idle can make the credit negative by at most the plan's own cost.
+  // If the plan began because a worker was idle, its cost lowers the credit at most to -seconds.
   credit_ = member.is_free_ ? std::min(credit_, std::max(credit_ - seconds, -seconds)) : credit_ - seconds;
 }
 

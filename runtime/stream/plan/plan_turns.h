@@ -23,7 +23,7 @@ class PlanTurns {
   using Clock = std::chrono::steady_clock;
   /// The share of meshing time that is credited for planning.
   static constexpr double kShare = 0.25;
-  /// The share of elapsed time that is credited, as long as the credit does not cover the running plans.
+  /// The share of elapsed time that is credited while the credit is less than the expected time of the running plans.
   static constexpr double kTrickle = 0.05;
   /// The maximum credit in seconds that meshing can earn.
   static constexpr double kMaxCredit = 0.01;
@@ -48,8 +48,9 @@ class PlanTurns {
 
   /// Adds a world. Throws std::bad_alloc.
   void join(Member& member);
-  /// Removes a world and its jobs, and begins plans of worlds that waited for the workers of these jobs. Must not run
-  /// concurrently with another call for this member, and no call may follow.
+  /// Removes a world and its count of jobs, and begins plans of other worlds, which may have waited for the workers of
+  /// these jobs. Must not run concurrently with another call for this member, and no other call for the member may
+  /// follow.
   void leave(Member& member) noexcept;
 
   /// Adds the world to the queue of those that wait for a plan. A later call of startDue(), on any thread, begins the

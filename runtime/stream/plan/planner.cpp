@@ -8,16 +8,18 @@ namespace sgm {
 
 namespace {
 
-/// The share of the memory limit above which surfaces that are not needed are removed.
+/// If surfaces take more than this share of the memory limit, those that are not needed are removed.
 constexpr double kKeptShare = 0.6;
 /// Shares of the memory limit. If needed surfaces take more than kFullShare, detail is lowered; if they take less than
-/// kFreeShare, it is raised again. Their ratio exceeds the effect of one change, so that detail does not oscillate.
+/// kFreeShare, it is raised again. One change of detail changes the memory by less than the ratio of the two shares, so
+/// that detail does not oscillate.
 constexpr double kFullShare = 0.55, kFreeShare = 0.25;
 /// If drawn surfaces take more than this share of the memory limit, edits are postponed, because memory does not
 /// suffice for both the old and the new version of chunks.
 constexpr double kSqueezedShare = 0.75;
 constexpr double kLessDetail = 0.8, kLeastDetail = 1.0 / 64;
-/// The minimum factor on the requested distances. The factor is lowered if a plan would have too many chunks.
+/// The minimum of the factor by which the requested distances are multiplied. The planner lowers this factor if a plan
+/// would have too many chunks.
 constexpr double kLeastReach = 1e-6;
 /// The share of LodSettings::finest_distance within which chunks count as near a viewer, if there are no colliders.
 constexpr double kNearShare = 2.0 / 3;
@@ -104,7 +106,7 @@ void Planner::restart(std::shared_ptr<const DrawnFrame> drawn) {
     KnownChunk& record = store_.at(leaf);
     if (edits_drawn_ == edits_.number) {
       record = knownOfDrawn(leaf);
-    } else {  // marks all chunks as outdated, because it is unknown which ones are
+    } else {  // it is unknown which chunks the edits have changed, so all count as outdated
       record.edited = edits_.number;
       record.ever_drawn = true;
     }
@@ -120,7 +122,8 @@ KnownChunk Planner::knownOfDrawn(const ChunkKey& leaf) const {
 }
 
 void Planner::learnApplied(uint64_t number) {
-  // The engine may have taken an earlier step that was offered, while a better one was planned to replace it.
+  // The step that the engine has applied need not be the latest one: the engine may have taken an earlier offered step
+  // while the planner prepared a better one.
   const auto taken =
       std::find_if(offered_.begin(), offered_.end(), [number](const auto& frame) { return frame->number == number; });
   if (taken == offered_.end()) return;
@@ -314,7 +317,8 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
   if (near_nodes_.size() > kCrowd) requestCoarse(queue);
   for (const OctreeNode& node : near_nodes_) {
     if (node.split || drawn.isSplit(node.key)) continue;
-    // A chunk in place of finer ones is useful only if an even coarser chunk is drawn there now.
+    // This chunk would stand in for finer chunks of the target. That is useful only if an even coarser chunk is drawn
+    // there now.
     const bool stands_in = target_.isSplit(node.key);
     if (!stands_in || !drawn.isLeaf(parentOf(node.key))) request(node.key, node.faces, Rank::near, queue);
   }
@@ -322,8 +326,8 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
     if (!node.split) {
       request(node.key, node.faces, Rank::other, queue);
     } else if (!drawn.isSplit(node.key) && !drawn.isLeaf(node.key)) {
-      // The drawn tree changes to the target in steps. If the target splits a node that is not drawn yet, the node's
-      // own chunk is meshed too, and drawn until everything inside the node is ready.
+      // The drawn tree approaches the target in steps. If the target splits a node that is not drawn yet, the node's
+      // own chunk is requested too: it is drawn until everything inside the node is ready.
       request(node.key, node.faces | coarserFaces(drawn, node.key), Rank::other, queue);
     }
   }

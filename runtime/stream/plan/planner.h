@@ -28,7 +28,8 @@ struct WorkItem {
   /// Priority classes: all requests of one rank are meshed before those of the next rank.
   enum class Rank : uint8_t {
     edited,  ///< chunks whose drawn version is outdated by an edit
-    coarse,  ///< chunks of a coarse first view, if many viewers need many chunks; coarsest level first
+    coarse,  ///< chunks of a coarse version of the whole view, coarsest level first; used only if viewers need many
+             ///< chunks to stand on
     near,    ///< chunks that a viewer needs to stand on
     other,
   };
@@ -96,19 +97,21 @@ struct Plan {
 struct PlannerSettings {
   LodSettings lod;
   size_t mesh_bytes = size_t{256} << 20;  ///< limit for the total size of surfaces, in bytes
-  double all_around = 0;                  ///< distance in units within which colliders are needed, for urgencyFor()
-  /// true: level 0 is drawn only where the void leads from a viewer (reachability.h)
+  double all_around = 0;                  ///< distance in units from a viewer, in all directions, within which objects
+                                          ///< need colliders; see urgencyFor()
+  /// true: level 0 is drawn only around chunks that can be reached from a viewer through the void (reachability.h)
   bool by_reach = true;
   bool sharp = false;  ///< true: surfaces have sharp features
 };
 
 struct PlannerStats {
   uint64_t meshed = 0;       ///< number of chunk bodies that were meshed
-  uint64_t finest = 0;       ///< number of these bodies at level 0
-  uint64_t rounded = 0;      ///< total number of cells of these bodies that keep rounded edges
+  uint64_t finest = 0;       ///< number of level-0 chunk bodies that were meshed
+  uint64_t rounded = 0;      ///< number of cells with rounded instead of sharp edges, summed over all meshed bodies
   uint64_t seam_jobs = 0;    ///< number of finished requests for seams only
   uint64_t outdated = 0;     ///< number of chunks that had to be meshed again because of a change of the world
-  uint64_t edited = 0;       ///< number of results that were dropped because the world had changed in the meantime
+  uint64_t edited = 0;       ///< number of meshing results that were dropped because the world changed while the chunk
+                             ///< was meshed
   uint64_t never_drawn = 0;  ///< number of chunks that were meshed, never drawn, and are no longer needed
   uint64_t failed = 0;
   size_t records = 0;         ///< number of known chunks
@@ -148,11 +151,12 @@ class Planner {
   /// Removes offered steps that the engine can no longer take. in_hand: see PlanInput.
   void forgetOffers(const std::array<uint64_t, 2>& in_hand);
   /// Adopts changes of the world one state at a time: the next state is adopted when the previous one is drawn and no
-  /// offered step is pending. So a frame shows exactly one state, a change appears within two frames of changes, and
-  /// only drawn chunks are meshed again, however many edits there are. Before the first frame, edits are adopted only
-  /// once: otherwise the coarsest chunks would be meshed again and again, and the first frame would never be complete.
+  /// offered step is pending. So a frame shows exactly one state, and each change appears in one of the next two new
+  /// frames. However many edits there are, only drawn chunks are meshed again. Before the first frame, edits are
+  /// adopted only once: otherwise the coarsest chunks would be meshed again and again, and the first frame would never
+  /// be complete.
   void takeUpEdits(PlanInput& input);
-  /// Returns from the adopted state, which cannot be drawn, to the drawn state.
+  /// Makes the drawn state the current state again, because the adopted state cannot be drawn.
   void giveEditsBack();
   /// Postpones edits until less detail is drawn, because memory does not suffice to mesh the drawn chunks again.
   void postponeEdits();
@@ -201,14 +205,14 @@ class Planner {
   WorldState edits_;
   uint64_t edits_drawn_ = 0;        ///< number of the world state that applied_ shows
   uint64_t oldest_edits_ = 0;       ///< number of the oldest world state whose meshing results are still accepted
-  std::vector<ChunkKey> outdated_;  ///< leaves of applied_ whose drawn version is older than the state edits_
+  std::vector<ChunkKey> outdated_;  ///< leaves of applied_ whose drawn version shows an older world state than edits_
   WorldState edits_before_;         ///< the world state before edits_ was adopted
   bool postponed_ = false;          ///< true if edits are postponed until less detail is drawn, for lack of memory
-  double room_beside_ = 0;          ///< maximum share of memory that drawn chunks may take when postponed edits are
-                                    ///< adopted
+  double room_beside_ = 0;          ///< maximum share of the memory limit that needed chunks may take when postponed
+                                    ///< edits are adopted
   uint64_t edits_failed_ = 0;       ///< number of a world state that is not drawn because one of its chunks failed
-  bool awaited_ = false;            ///< true if, after the last plan, a chunk was to be meshed or in progress, or a
-                                    ///< step was to be drawn
+  bool awaited_ = false;            ///< true if the last plan left work: chunks to mesh, chunks in progress, or a step
+                                    ///< to draw
   bool edited_first_ = false;       ///< true if edits were already adopted before the first frame
   bool changed_ = true;             ///< true if anything changed since the last search for a step
   uint64_t plans_ = 0, frames_ = 0, detail_settled_ = 0;

@@ -9,7 +9,8 @@ namespace sgm {
 
 namespace {
 
-/// Twice the share of memory that drawn chunks may take when postponed edits are tried for the first time.
+/// Initial value of room_beside_, the share of the memory limit that needed chunks may take. Each postponement of edits
+/// halves this share.
 constexpr double kFirstRoom = 0.5;
 
 }  // namespace
@@ -18,7 +19,8 @@ void Planner::takeUpEdits(PlanInput& input) {
   const bool fails = !outdated_.empty() && std::all_of(outdated_.begin(), outdated_.end(),
                                                        [this](const ChunkKey& leaf) { return store_.at(leaf).failed; });
   if (fails) {
-    // The drawn state remains. The next edit, for example an undo, may remove the cause of the failure.
+    // The world keeps showing the state before the failed edits. The next edit, for example an undo, may remove the
+    // cause of the failure.
     edits_failed_ = edits_.number;
     giveEditsBack();
   }
@@ -65,8 +67,8 @@ void Planner::invalidate(std::span<const WorldChange> changes) {
                          });
     if (!touched) return;
     if (record.body) ++stats_.outdated;
-    // record.voids stays until new voids are known. A chunk with unknown voids ends the search for reachable chunks
-    // (reachability.h), so otherwise the chunks behind it would lose level 0 for a while.
+    // Keep record.voids until the new voids are known. The search for reachable chunks (reachability.h) stops at a
+    // chunk with unknown voids, so without record.voids the chunks behind it would lose level 0 for a while.
     record.surface = nullptr;
     record.body = record.failed = false;
     record.seams = 0;

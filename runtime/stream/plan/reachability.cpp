@@ -13,7 +13,8 @@ namespace {
 
 constexpr uint32_t kUnreached = std::numeric_limits<uint32_t>::max();
 
-/// A flood fill through voids from one viewer, over the cube of chunks around the ball of the search.
+/// A flood fill from one viewer through the voids of chunks. It covers the cube of chunks around the ball in which the
+/// search looks.
 class VoidFlood {
  public:
   VoidFlood(const std::array<double, 3>& viewer, double radius, int32_t finest_cell, const VoidLookup& voids)
@@ -54,14 +55,15 @@ class VoidFlood {
  private:
   struct Chunk {
     const VoidComponents* voids = nullptr;
-    uint64_t entered = 0;  ///< bit i is set if the search has entered the void voids[i]
+    uint64_t entered = 0;  ///< bit i is set if the search has entered the chunk's void with number i
     uint32_t steps = kUnreached;
     bool asked = false, inside = false;
   };
   struct Void {
     Int3 at;
     int number = 0;
-    uint32_t steps = 0;  ///< number of steps to this void; another void of the same chunk may need fewer
+    uint32_t steps = 0;  ///< number of search steps from the viewer to this void; other voids of the same chunk may be
+                         ///< fewer steps away
   };
 
   /// Returns the chunk coordinate of a position, clamped to the chunks that lie completely inside the world.

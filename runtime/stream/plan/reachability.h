@@ -16,7 +16,8 @@ namespace sgm {
 
 struct ReachedChunk {
   ChunkKey key;
-  uint32_t steps = 0;  ///< number of chunk faces on the shortest path through the void from the nearest viewer
+  /// number of chunk faces that the shortest path through the void, from the nearest viewer, crosses
+  uint32_t steps = 0;
   friend auto operator<=>(const ReachedChunk&, const ReachedChunk&) = default;
 };
 
@@ -28,11 +29,11 @@ using VoidLookup = std::function<const VoidComponents*(const ChunkKey&)>;
 /// since a straight line of sight leaves neither the void nor the ball.
 ///
 /// A chunk with unknown voids counts as reached from its neighbours, but the search does not continue through it. A
-/// known chunk is also reached if a reached void only touches it, because the surface between them is visible. If a
-/// viewer has only rock around it (voidsAround in mesh/void_components.h), rock counts as void for this viewer, so that
-/// it still gets chunks. viewers: positions in units, finite. finest_cell: edge of a level-0 cell in units. Chunks that
-/// extend beyond the world are omitted. A pure function. Its work grows with the cube of radius / (32 * finest_cell)
-/// for each viewer.
+/// chunk with known voids also counts as reached if a reached void only touches it, because the surface between the two
+/// is visible. If a viewer has only rock around it (voidsAround in mesh/void_components.h), rock counts as void for
+/// this viewer, so that it still gets chunks. viewers: positions in units, finite. finest_cell: edge of a level-0 cell
+/// in units. Chunks that extend beyond the world are omitted. A pure function. Its work grows with the cube of radius /
+/// (32 * finest_cell) for each viewer.
 std::vector<ReachedChunk> reachedChunks(std::span<const std::array<double, 3>> viewers, double radius,
                                         int32_t finest_cell, const VoidLookup& voids);
 

@@ -9,8 +9,8 @@
 namespace sgm {
 namespace {
 
-constexpr double kOutOfSight = 4;  ///< factor on the maximum apparent cell size (cell_angle) for nodes outside of the
-                                   ///< picture
+/// for nodes outside of the picture, the maximum apparent cell size (cell_angle) is larger by this factor
+constexpr double kOutOfSight = 4;
 
 class ViewTree {
  public:

@@ -21,10 +21,10 @@ struct PictureView {
 /// `finest` units.
 int halvingsFor(const PictureView& view, int32_t coarsest, int32_t finest, double nearest);
 
-/// Returns an octree for the picture. It splits all virtual nodes (the roots, octree.h) that intersect the region or
-/// touch such a node, and all nodes in the region whose cells would look too large. Cells outside of the picture may be
-/// four times as large, since they are visible only through shadows and reflections. top: level of the coarsest chunks;
-/// finest_cell: edge of a level-0 cell in units.
+/// Returns an octree for the picture. It splits all virtual nodes (the roots, octree.h) that intersect the region, and
+/// the virtual nodes that touch one of these. It also splits all nodes in the region whose cells would look too large.
+/// Cells outside of the picture may be four times as large, since they are visible only through shadows and
+/// reflections. top: level of the coarsest chunks; finest_cell: edge of a level-0 cell in units.
 Octree viewTarget(const PictureView& view, const IntBox& region, int top, int32_t finest_cell);
 
 }  // namespace sgm

@@ -31,8 +31,9 @@ inline constexpr double kLookAhead = 0.5;
 /// m/s.
 Result<void> checkViewer(const Viewer& viewer);
 
-/// Returns the positions around which detail is needed: that of each viewer, and its position after kLookAhead.
-/// Positions are rounded to an eighth of a level-0 chunk, so that small movements do not change the target octree.
+/// Returns the positions around which detail is needed: for each viewer its position now, and its position after
+/// kLookAhead. Positions are rounded to an eighth of a level-0 chunk, so that small movements do not change the target
+/// octree.
 std::vector<LodViewer> lodViewers(std::span<const Viewer> viewers, const LodSettings& settings);
 
 /// A viewer with precomputed values for urgencyFor().

@@ -11,7 +11,7 @@ namespace sgm {
 namespace {
 
 constexpr uint32_t kMaxInLeaf = 4;
-/// Maximum depth of the hierarchy; kMaxViewers viewers need less.
+/// Maximum depth of the hierarchy. A hierarchy of kMaxViewers viewers is less deep.
 constexpr size_t kDeepest = 32;
 
 double boxDistance(const std::array<double, 3>& low, const std::array<double, 3>& high, const ChunkKey& key,
@@ -26,7 +26,7 @@ double boxDistance(const std::array<double, 3>& low, const std::array<double, 3>
   return std::sqrt(squares);
 }
 
-/// Factor on lower bounds, which keeps them valid despite rounding errors.
+/// Factor by which lower bounds are reduced, so that they stay valid despite rounding errors.
 constexpr double kCareful = 1 - 1e-9;
 
 }  // namespace

@@ -30,8 +30,8 @@ class ViewerIndex {
                                       ///< the node is a leaf
   };
   uint32_t build(uint32_t first, uint32_t count);
-  /// Returns the minimum of value(viewer) over all viewers. bound(node): a lower bound of the values in a node, which
-  /// allows to skip the node.
+  /// Returns the minimum of value(viewer) over all viewers. bound(node): a lower bound of the values in a node; the
+  /// node is skipped if the bound is above the minimum so far.
   template <class Bound, class Value>
   double least(const Bound& bound, const Value& value) const;
 

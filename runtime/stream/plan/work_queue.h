@@ -30,7 +30,7 @@ class WorkQueue {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds kPatience{200};
-  /// Prefetches are made only for this number of requests, the most urgent ones; only they wait for their prefetch.
+  /// Number of the most urgent requests that are prefetched. Only these requests wait for their prefetch.
   static constexpr size_t kSight = 256;
   /// Maximum number of prefetch results that jobs have not taken yet; at this number, no prefetch begins. The memory of
   /// these results is not counted elsewhere.

@@ -59,8 +59,8 @@ struct OpenedBase {
   std::string notice;  ///< message about damage of the file and how it was handled; empty if the file was intact
 };
 /// Opens the user's database. If the file is missing, returns the built-in reference histograms and writes nothing. A
-/// damaged file is renamed to FILE.damaged-1 and so on, and replaced by the built-in set. Errors: io; unsupported for a
-/// database of a later version.
+/// damaged file is renamed to the first free name of FILE.damaged-1, FILE.damaged-2 and so on, and replaced by the
+/// built-in set. Errors: io; unsupported for a database of a later version.
 Result<OpenedBase> openBase(const std::filesystem::path& file);
 
 }  // namespace sgm::masters

@@ -21,7 +21,7 @@ using Shares = std::vector<double>;
 
 constexpr double kMillion = 1e6;
 
-/// A histogram of one model, and the family of the model.
+/// The histogram of one model, and the model's family.
 struct Member {
   const Family* family;
   const Shares* shares;
@@ -70,7 +70,7 @@ std::vector<std::vector<Member>> clustersOf(HistogramMode mode, std::span<const 
   return clusters;
 }
 
-/// Rounds shares to whole millionths that still add up to one, so that sourceOf() writes exact values.
+/// Rounds shares to millionths, such that their sum is still one. So sourceOf() can write the exact values.
 Shares rounded(const Shares& shares) {
   std::vector<double> parts(shares.size());
   std::vector<size_t> order(shares.size());

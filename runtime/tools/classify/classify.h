@@ -52,8 +52,9 @@ struct MasterLimits {
 /// The mean squared error (1 / R) sum (a - b)^2 over the R bins. Contract: equal numbers of bins.
 double meanSquaredError(std::span<const double> a, std::span<const double> b);
 /// The error by which classes are compared. In the paper's modes it is the mean squared error of the shares, as in the
-/// paper; for HistogramMode::curvature, that of the square roots of the shares: most edges of any mesh are nearly flat,
-/// and without the roots this uninformative bin would dominate the error. Contract: equal numbers of bins.
+/// paper. For HistogramMode::curvature it is the mean squared error of the square roots of the shares: most edges of
+/// any mesh are nearly flat, and without the roots the bin of these edges, which tells nothing, would dominate the
+/// error. Contract: equal numbers of bins.
 double classError(HistogramMode mode, std::span<const double> a, std::span<const double> b);
 /// The earth mover's distance in units of the histogram's range: from 0 to 1 for histograms whose shares add up to 1.
 /// Unlike the mean squared error, it grows with the distance over which shares must be moved between bins.
@@ -68,8 +69,8 @@ struct ClassDistance {
 };
 
 struct Classification {
-  std::vector<ClassDistance> classes;  ///< one for each class, ascending by mse
-  std::string second_opinion;          ///< class with the smallest emd
+  std::vector<ClassDistance> classes;  ///< one entry for each class, in ascending order of mse
+  std::string second_opinion;          ///< class with the smallest emd (earth mover's distance)
   double margin = 0;                   ///< 1 - smallest mse / second smallest mse: from 0 (undecided) to 1
   std::string verdict;                 ///< the nearest class; kUnknown if it is kNoise or farther than a limit
   std::string reason;                  ///< why the verdict is kUnknown; otherwise empty

@@ -18,7 +18,8 @@ namespace {
 
 constexpr uint64_t kMaxChunks = 8192;
 constexpr size_t kCellBytes = size_t{256} << 20;
-/// Number of grid cells along the edge of the part of the world that is searched for a surface.
+/// A box is searched for a surface with at least this number of grid cells along its longest edge; this determines the
+/// level of detail of the search.
 constexpr int64_t kSearchCells = 64;
 /// Maximum vertical component of the unit normal of a steep surface: it is inclined by at least 60 degrees.
 constexpr double kSteep = 0.5;
@@ -53,8 +54,8 @@ rule Tree(h) weight 1 { plant.Spruce(h); }
 rule Tree(h) weight 1 { plant.Broadleaf(h); }
 )sgm";
 
-/// Sizes in metres of a grid cell and of the cube that is meshed (0: the whole world): at most 96 cells along an edge,
-/// to show enough of a model at low cost.
+/// Edge lengths in metres of a grid cell and of the cube that is meshed (0: the whole world). The cube has at most 96
+/// cells along an edge, to show enough of a model at low cost.
 struct Scale {
   double cell = 0, edge = 0;
 };
@@ -71,8 +72,8 @@ struct Kind {
   std::string_view class_name;
   std::span<const Scale> scales;
   std::string_view file;
-  /// Width in metres of the central part of a finite world that is used, without the ground around a building; 0: no
-  /// limit.
+  /// Width in metres of the central part of a finite world. Only this part is used, to omit the ground around a
+  /// building. 0: the whole world is used.
   double middle = 0;
   std::string_view text = embedded(file);
 };
@@ -176,9 +177,9 @@ bool contains(const IntBox& box, const measure::Point& p) {
   return true;
 }
 
-/// A point on a steep surface, selected by `share`, 0..1. Flat ground, which is most of a village's surface, says
-/// nothing about the objects on or below it. If the box contains no steep surface, the point is on any surface.
-/// Contract: the mesh has triangles.
+/// A point on a steep surface, selected by `share`, 0..1. Flat ground is avoided: it is most of a village's surface,
+/// but tells nothing about the objects on or below it. If the box contains no steep surface, the point is on any
+/// surface. Contract: the mesh has triangles.
 measure::Point placeOn(const ModelMesh& mesh, const IntBox& box, double share) {
   std::vector<uint32_t> steep;
   for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {

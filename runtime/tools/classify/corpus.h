@@ -1,7 +1,7 @@
 #pragma once
-// Models of known class, from which reference histograms are built and with which classification is tested. The models
-// are generated from the current samples, and from simple grammars in tests/bench/grammars, which do not change. A
-// model depends only on its family, its seed, and the standard library.
+// Makes models of known class. Reference histograms are built from such models, and classification is tested with them.
+// The models are generated from the current samples, and from simple grammars in tests/bench/grammars, which do not
+// change. A model depends only on its family, its seed, and the standard library.
 
 #include <memory>
 #include <span>
@@ -16,13 +16,13 @@
 namespace sgm::masters {
 
 /// The models of one grammar at one density; or a kind of noise: a plane grid of quadrangles whose points are moved
-/// randomly by at most 0.4 to 2 edge lengths, or voxels that are solid at random.
+/// randomly (the maximum is 0.4 to 2 edge lengths, different for each model), or voxels that are solid at random.
 struct Family {
   std::string_view class_name;
   std::string_view file;  ///< path in samples/grammars, bench/... for tests/bench/grammars, or a description for noise
   std::string_view text;  ///< text of the grammar; empty for noise
   double cell = 0;        ///< edge of a grid cell, metres; for noise, the edge of a quadrangle
-  double edge = 0;        ///< edge of the meshed cube, metres; 0: the whole world is meshed, which is then finite
+  double edge = 0;        ///< edge of the meshed cube, metres; 0: the world is finite, and all of it is meshed
   /// Width in metres, along x and z, of the central part of a finite world in which a cube's centre must lie; 0:
   /// anywhere.
   double middle = 0;

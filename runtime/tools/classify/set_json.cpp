@@ -175,7 +175,7 @@ class SetReader {
       if (!fits) fail("a number from 0 to 1 is expected here", at + "/" + std::to_string(i));
       shares.push_back(items[i].number);
     }
-    // The reader of the database requires the same tolerance, so it accepts every histogram that is accepted here.
+    // The reader of the database uses the same tolerance, so it accepts every histogram that is accepted here.
     if (!(std::fabs(std::accumulate(shares.begin(), shares.end(), 0.0) - 1) < 1e-9))
       fail("these shares do not add up to 1", at);
     return shares;

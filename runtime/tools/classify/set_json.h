@@ -15,9 +15,10 @@ inline constexpr size_t kMaxSetBytes = size_t{4} << 20, kMaxSetKeys = 256, kMaxS
 
 struct ReadSet {
   std::optional<MasterSet> set;  ///< set if the whole text is valid
-  bool malformed = false;        ///< the text is not JSON
+  bool malformed = false;        ///< true if the text is not JSON
   std::string what;     ///< the first problem, in one line; without its position in the text if the JSON is well-formed
-  std::string pointer;  ///< JSON pointer to the wrong value (RFC 6901); "" if the text as a whole is wrong
+  std::string pointer;  ///< JSON pointer (RFC 6901) to the value that is wrong; "" if the whole text is wrong, for
+                        ///< example no JSON
 };
 
 /// Parses {"masters": [{"class", "name", "models", "key", "shares"}, ...], "limits": [{"key", "mse", "emd"}, ...]},

@@ -65,7 +65,8 @@ SeamOf seamOf(const DrawnParts& drawn, size_t number) {
 }
 
 void numberByEdge(const CheckedPart& part, std::vector<uint32_t>& first) {
-  std::vector<std::pair<uint64_t, uint32_t>> edges;  // key of the grid edge within the chunk, vertex number
+  std::vector<std::pair<uint64_t, uint32_t>> edges;  // for each vertex: key of its grid edge within the chunk, and the
+                                                     // vertex number
   edges.reserve(part.vertices.size());
   for (const VertexPlace& v : part.vertices) {
     const auto number = static_cast<uint32_t>(edges.size());
@@ -76,7 +77,8 @@ void numberByEdge(const CheckedPart& part, std::vector<uint32_t>& first) {
     }
     const uint64_t axis = v.x % kSubcell != 0 ? 0 : v.y % kSubcell != 0 ? 1 : 2;
     const uint64_t cell = (word(v.x) / kSubcell << 16) | (word(v.y) / kSubcell << 8) | word(v.z) / kSubcell;
-    // The low 16 bits are 0. They are not 0 in the key of a feature vertex, so keys of the two kinds never coincide.
+    // The low 16 bits of this key are 0. In the key of a feature vertex they are not 0, so the two kinds of keys never
+    // coincide.
     edges.push_back({(cell << 2 | axis) << 16, number});
   }
   std::sort(edges.begin(), edges.end());

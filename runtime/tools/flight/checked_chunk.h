@@ -26,12 +26,12 @@ struct DrawnParts {
   friend bool operator==(const DrawnParts&, const DrawnParts&) = default;
 };
 
-/// Numbers of undirected edges: all, open, non-manifold; defined as in FrameReport.
+/// Counts of undirected edges: all edges, open edges, and non-manifold edges, as FrameReport defines them.
 struct EdgeCounts {
   uint64_t edges = 0, open = 0, nonmanifold = 0;
 };
 
-/// Numbers of faulty triangles, and of faulty pairs of triangles, within one part.
+/// Counts of faulty triangles and of faulty pairs of triangles within one part.
 struct TriangleCounts {
   uint64_t degenerate = 0, flat = 0;
   PairCounts pairs;
@@ -74,8 +74,8 @@ void forEachDrawn(ChunkOrConst& chunk, const Visit& visit) {
     if (number == 0 || (chunk.drawn.seams >> (number - 1) & 1) != 0) visit(chunk.parts[number], number);
 }
 
-/// Sets first[v], for every vertex v of a body, to the lowest vertex number on the same grid edge: v itself, unless the
-/// mesh contains duplicate vertices.
+/// Sets first[v], for every vertex v of a body, to the lowest number of a vertex on the same grid edge. This is v
+/// itself, unless the mesh contains duplicate vertices.
 void numberByEdge(const CheckedPart& part, std::vector<uint32_t>& first);
 
 /// Counts the faults of the part's triangles. number: index of the part in its chunk. ids: one id for each vertex of

@@ -13,11 +13,12 @@ namespace {
 constexpr size_t kColumns = 6, kRows = 4;
 constexpr double kViewMetres = 256;  // length of the view rays; farther surfaces cover little of a picture
 constexpr double kGoldenAngle = 2.399963229728653;
-/// Length of upward rays that must hit nothing to count as reaching the sky: in an open world; in an open world with
-/// endlessly stacked grammar cells; in rock, whose caves may be high. The lengths are limited because the world must be
-/// derived along the ray.
+/// Length of the upward rays. A ray that hits nothing within this length counts as reaching the sky. The lengths apply
+/// to an open world, to an open world with endlessly stacked grammar cells, and to caves in rock, which may be high.
+/// They are limited because the world must be derived along each ray.
 constexpr double kSkyMetres = 256, kEndlessSkyMetres = 128, kRockSkyMetres = 1024;
-/// Daylight is clearly above or below the threshold kEnoughDaylight if it differs by more than these factors.
+/// Daylight is clearly above (below) the threshold kEnoughDaylight if it is more (less) than this factor times the
+/// threshold.
 constexpr double kClearlyMore = 1.5, kClearlyLess = 0.5;
 
 /// Five directions: straight up, and four at 30 degrees above the horizon, spaced by 90 degrees. `turn` rotates these
@@ -36,7 +37,8 @@ bool letsThrough(const LitWorld& world, const RayEnd& end) {
   return end.material < world.translucent.size() && world.translucent[end.material];
 }
 
-/// The share of the five upward directions from which light of the sky reaches a place.
+/// Returns how much of the sky is open: the share of the five upward directions in which light of the sky reaches a
+/// place.
 Result<double> openness(const LitWorld& world, const Metres3& place, double turn) {
   const std::array<Metres3, 5> directions = upwards(turn);
   int open = 0;
@@ -90,8 +92,8 @@ Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera) {
     sum += *open;
   }
   std::ranges::sort(distances);
-  // The depth is the mean of the median and the upper quartile of the distances: many rays hit near surfaces that frame
-  // the view, but the farther surfaces matter.
+  // The depth of the view is the mean of the median and the upper quartile of the distances. The median alone would be
+  // too small: many rays hit near surfaces that only frame the view.
   const double depth = (distances[distances.size() / 2] + distances[distances.size() * 3 / 4]) / 2;
   return Outlook{sum / static_cast<double>(distances.size()), false, depth};
 }

@@ -31,13 +31,14 @@ using CastRay =
 struct LitWorld {
   CastRay cast;
   bool roofless = true;           ///< false if endless rock lies above everything
-  double sky_metres = 256;        ///< length of an upward ray that must hit nothing to count as reaching the sky
+  double sky_metres = 256;        ///< length of upward rays; a ray that hits nothing within this length counts as
+                                  ///< reaching the sky
   std::vector<bool> translucent;  ///< for each material index: whether it transmits light, as glass and clouds do
   /// Distance from a surface at which rays from that surface start, so that they do not hit it again.
   double clearance_metres = 1.0 / 256;
 
-  /// The properties of a world with a kind of domain. solid: the domain is rock with hollows. endless_height: its
-  /// grammar cells are stacked without end.
+  /// Returns the properties of a world with this kind of domain; `cast` and `translucent` are not set. solid: the
+  /// domain is rock with hollows. endless_height: its grammar cells are stacked without end.
   static LitWorld of(bool solid, bool endless_height);
 };
 
@@ -52,13 +53,14 @@ struct CameraPlace {
   double aspect = 16.0 / 9;     ///< width of the picture divided by its height
 };
 
-/// The quantities that determine how a picture from a camera is lit.
+/// The quantities from which the light of a camera's picture is chosen. They are measured by casting rays from the
+/// camera.
 struct Outlook {
   /// Share of the sky, 0..1, that is visible from the surfaces in the picture. Rays are spread evenly over the picture;
   /// at the end of each ray, five upward directions are tested, and the share of unobstructed directions is averaged
   /// over all rays.
   double daylight = 0;
-  bool buried = false;  ///< true if the camera is inside a solid; the other members are then not set
+  bool buried = false;  ///< true if the camera is inside a solid; in this case the other members are not set
   double depth = 1;     ///< typical distance in metres to the visible surfaces, at most 256
 };
 
@@ -69,13 +71,13 @@ Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera);
 std::optional<Light> lightNamed(std::string_view name);
 const char* lightName(Light light);
 
-/// Minimum of Outlook::daylight for which pictures are lit by the sun.
+/// If Outlook::daylight is at least this value, pictures are lit by the sun, otherwise by a lamp.
 inline constexpr double kEnoughDaylight = 0.03;
 /// Returns Light::sun if daylight is at least kEnoughDaylight, otherwise Light::lamp.
 Light lightAt(double daylight);
 
-/// Chooses the light of successive pictures without flicker: the light changes only after two successive values of
-/// daylight that are clearly on the other side of kEnoughDaylight.
+/// Chooses the light of successive pictures without flicker: it changes the light only after two successive values of
+/// daylight that both clearly call for the other light.
 class SteadyLight {
  public:
   /// Returns the light for the next picture. anew: the camera has jumped, so earlier values of daylight do not count.
@@ -83,7 +85,8 @@ class SteadyLight {
 
  private:
   std::optional<Light> light_;
-  bool doubted_ = false;  ///< the previous value of daylight was clearly on the other side of kEnoughDaylight
+  bool doubted_ = false;  ///< true if the previous value of daylight was clearly on the other side of kEnoughDaylight
+                          ///< than the current light
 };
 
 }  // namespace sgm::cli

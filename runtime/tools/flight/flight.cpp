@@ -16,7 +16,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kFramesASecond = 60;
 constexpr auto kFrame = std::chrono::microseconds(16667);
-/// Without pacing, the next frame begins when the world has made its next plan, or at the latest after this time.
+/// If the flight is not paced, the next frame begins as soon as the world has made its next plan, or at the latest
+/// after this time.
 constexpr auto kLongestWait = std::chrono::milliseconds(4);
 constexpr auto kBetweenLooksForNews = std::chrono::microseconds(100);
 constexpr auto kBetweenLooksWhileStanding = std::chrono::milliseconds(4);
@@ -70,7 +71,8 @@ class Course {
     if (leg_ != 0 && frame_ > 0 && frame_ % leg_ == 0 && teleported_ < teleports_) {
       if (Result<void> moved = path_.teleport(++teleported_); !moved) return moved.error();
       flown_ = 0;
-      // Stand still for some frames, so that pending work becomes obsolete only by the teleport, not by later motion.
+      // Stand still for some frames after the teleport: so the share of obsolete pending requests measures the effect
+      // of the teleport alone, without that of later motion.
       stands_ = kFramesToForget;
       stop.leapt = true;
     }
@@ -145,7 +147,8 @@ class Flight {
     return {};
   }
 
-  /// Waits until the world has changed: earlier frames would all draw the same picture.
+  /// Waits until the world has made a new plan or is idle, at most kLongestWait: before that, a frame would draw the
+  /// same picture again.
   Result<void> awaitNews() const {
     const Clock::time_point latest = Clock::now() + kLongestWait;
     sgm_error error = SGM_ERROR_INIT;

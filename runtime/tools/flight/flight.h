@@ -21,7 +21,8 @@ struct FlightSettings {
   uint64_t frames = 600;     ///< number of frames, each 1/60 s long
   uint64_t teleports = 0;    ///< number of teleports, spread evenly over the frames
   double edits = 0;          ///< digs (edits of the world) per second of the path, at most 60
-  bool check = false;        ///< checks the changes of the surface in every frame, and all chunks in every 500th frame
+  bool check = false;        ///< true: checks the changes of the surface in every frame, and all chunks in every 500th
+                             ///< frame
   bool paced = true;         ///< true: runs at 60 frames per second; false: as fast as possible
   /// Distance in metres within which visible surfaces should be drawn at level 0; the world's finest_distance must not
   /// be smaller.
@@ -41,17 +42,17 @@ struct FlightReport {
   Spread main_thread;
   /// Wall time from the first update until the surroundings were walkable (kWalkableDistance); -1 if they never were.
   double walkable_ms = -1;
-  double seconds = 0;  ///< wall time of the flight, including checks, without planning the path
-  /// Numbers of rays that hit a surface within finest_distance, and of those hits that were drawn at level 0, over all
-  /// frames.
+  double seconds = 0;  ///< wall time of the flight, including the checks, but not the planning of the path
+  /// Over all frames: number of rays that hit a surface within finest_distance, and number of these hits where the
+  /// surface was drawn at level 0.
   uint64_t seen = 0, seen_finest = 0;
   /// Number of frames in which all surfaces hit by rays were drawn at level 0; number of frames in which rays hit a
   /// surface.
   uint64_t frames_covered = 0, frames_seen = 0;
-  /// For each teleport: number of requests that waited or were being processed.
+  /// For each teleport: number of chunk requests that were waiting or in progress at that time.
   std::vector<uint64_t> work_at_teleports;
-  /// For each teleport with pending requests: share of these requests that still wait two frames later. Only in paced
-  /// flights.
+  /// For each teleport with pending requests: share of these requests that are still pending two frames later. Only in
+  /// paced flights.
   std::vector<double> stale;
   DigReport digs;
   ColliderReport colliders;  ///< state of the colliders at the end, when all work is done
@@ -62,10 +63,11 @@ struct FlightReport {
 };
 
 struct FlightWatch {
-  /// Called after each planned frame of a paced flight, whose path is planned before the flight begins.
+  /// Called each time that a frame has been planned. Only for paced flights: their whole path is planned before they
+  /// begin.
   std::function<void(uint64_t frame)> planned;
-  /// Returns whether a picture of the frame is wanted. At the beginning and after teleports, the flight pauses at such
-  /// a frame until all visible surfaces within kWalkableDistance are drawn at level 0, or no work is left.
+  /// Returns whether a picture of the frame is wanted. At the beginning and after teleports, the flight pauses at a
+  /// wanted frame until all visible surfaces within kWalkableDistance are drawn at level 0, or no work is left.
   std::function<bool(uint64_t frame)> pictured;
   /// Called after every frame; returns false to end the flight.
   std::function<bool(uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn)> flown;

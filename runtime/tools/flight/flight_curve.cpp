@@ -20,8 +20,8 @@ std::vector<Metres3> splinePoints(std::span<const Metres3> controls, double spac
                                   const std::optional<Metres3>& start) {
   const size_t count = controls.size(), segments = closed ? count : count - 1;
   const auto control = [&](size_t i) { return controls[i % count]; };
-  // Velocity at a control point for unit speed: the weighted mean of the slopes on both sides; the slope towards the
-  // nearer neighbour has more weight.
+  // Tangent of the spline at a control point: the weighted mean of the slopes of the chords on both sides. The slope
+  // towards the nearer neighbour has more weight.
   const auto velocity = [&](size_t i) {
     const bool first = i == 0 && !closed, last = i == count - 1 && !closed;
     if (first && start) return unit(*start);
@@ -36,7 +36,7 @@ std::vector<Metres3> splinePoints(std::span<const Metres3> controls, double spac
     const Metres3 a = control(i), b = control(i + 1);
     const double length = glm::length(b - a);
     const Metres3 va = length * velocity(i), vb = length * velocity((i + 1) % count);
-    // A spline segment is at most about half longer than its chord, so twice the chord is enough samples.
+    // A spline segment is at most about 1.5 times as long as its chord, so enough samples for twice the chord suffice.
     const auto steps = static_cast<size_t>(std::ceil(2 * length / spacing));
     for (size_t step = 1; step <= steps; ++step) {
       const double t = static_cast<double>(step) / static_cast<double>(steps), u = 1 - t;

@@ -16,10 +16,10 @@ struct FlightPlace {
   Metres3 direction{0, 0, -1};
 };
 
-/// Samples the Catmull-Rom spline through the control points, whose distances are the parameter intervals. The samples
-/// are at most about `spacing` apart and include the first and last control point. If `start` is given and not zero,
-/// the curve begins in that direction. If closed, it returns to its first control point. Precondition: at least two
-/// control points; neighbouring points differ.
+/// Samples the Catmull-Rom spline through the control points; the distances between them are the parameter intervals.
+/// The samples are at most about `spacing` apart and include the first and last control point. If `start` is given and
+/// not zero, the curve begins in that direction. If `closed`, the curve returns to its first control point.
+/// Precondition: at least two control points; neighbouring points differ.
 std::vector<Metres3> splinePoints(std::span<const Metres3> controls, double spacing, bool closed,
                                   const std::optional<Metres3>& start = {});
 
@@ -30,7 +30,8 @@ class FlightCurve {
 
   /// Appends points to the curve. The first point must be the current end of the curve, unless the curve is empty.
   void extend(std::span<const Metres3> points);
-  /// The maximum of s in at(): the arc length up to the last resampled place, at most one spacing less than the total.
+  /// The maximum of s in at(): the arc length up to the last resampled place. It is at most one spacing shorter than
+  /// the whole curve.
   double length() const { return places_.empty() ? 0 : spacing_ * static_cast<double>(places_.size() - 1); }
   /// The place at arc length s, which is clamped to 0..length(). Precondition: the curve is not empty.
   FlightPlace at(double s) const;

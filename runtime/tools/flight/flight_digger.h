@@ -22,7 +22,7 @@ Spread spreadOf(std::vector<double> values);
 
 struct DigReport {
   uint64_t cuts = 0, adds = 0, undos = 0;
-  Spread frames;            ///< number of commits (updates of the picture) from a dig until it is drawn
+  Spread frames;            ///< number of new drawn frames from a dig until it is visible
   Spread milliseconds;      ///< wall time from a dig until it is drawn
   uint64_t max_queued = 0;  ///< maximum number of chunks that waited for meshing after a frame, from the first dig on
 
@@ -30,8 +30,8 @@ struct DigReport {
 };
 
 /// Makes random edits (digs): most cut a hole of 4 m into the surface around the viewer, mostly ahead of it; some add a
-/// lump behind the viewer, off its path; some undo a recent edit. Places and kinds depend only on the seed, the world
-/// and the flight. Not thread-safe.
+/// lump behind the viewer, away from its path; some undo a recent edit. Places and kinds depend only on the seed, the
+/// world and the flight. Not thread-safe.
 class FlightDigger {
  public:
   /// digs_a_second: at most 60, in seconds of the path; the first second has no digs. The world must outlive the
@@ -42,7 +42,8 @@ class FlightDigger {
   Result<void> plan(uint64_t frame, const FlightPlace& place);
   /// Performs the dig that plan() has chosen. Errors: those of sgm_world_edit.
   Result<void> dig();
-  /// Records which digs are drawn. Must be called after each frame, with the world's current statistics.
+  /// Records which of the digs that waited are drawn by now. Must be called after each frame, with the world's current
+  /// statistics.
   void look(const sgm_world_stats& stats);
 
   /// Whether some digs have not been drawn yet.
@@ -69,11 +70,12 @@ class FlightDigger {
   double a_frame_;
   std::optional<Dig> planned_;
   std::optional<Clock::time_point> dug_;  ///< time of the dig in the current frame; nullopt if this frame has no dig
-  std::deque<sgm_edit_id> last_;          ///< recent edits that can be undone; undoing an undo redoes the edit
+  std::deque<sgm_edit_id> last_;          ///< recent edits that can be undone. An undo is an edit too: undoing it
+                                          ///< restores the undone edit
   std::deque<Waiting> waiting_;
   uint64_t frame_ = 0;  ///< the world's frame number at the last call of look()
-  /// Number of commits (updates of the picture) so far. Counted here because the world's frame number may rise by more
-  /// than one at a time.
+  /// Number of commits (changes of the drawn frame) so far. Counted here because the world's frame number may rise by
+  /// more than one at a time.
   uint64_t commits_ = 0;
   DigReport report_;
   std::vector<double> frames_, milliseconds_;

@@ -36,7 +36,7 @@ struct CheckedFrames {
 struct ColliderReport {
   uint64_t colliders = 0;  ///< number of colliders that the engine holds
   uint64_t missing = 0;    ///< number of nearby drawn chunks that have triangles but no collider
-  uint64_t unlike = 0;     ///< number of colliders whose number of triangles differs from that of the drawn chunk
+  uint64_t unlike = 0;     ///< number of colliders that have another number of triangles than the drawn chunk
   uint64_t stray = 0;      ///< number of colliders whose chunk is not drawn
 
   bool fit() const { return missing + unlike + stray == 0; }
@@ -51,16 +51,17 @@ class FlightEngine {
   /// Processes all pending events; returns the number of bytes of the received meshes. Does not check the surface: see
   /// checkFrame().
   Result<uint64_t> poll(sgm_world* world);
-  /// Checks the drawn surface after the latest changes; if `whole`, also checks all of it from scratch. Merges the
-  /// result into `checked`. Does nothing if checks are not enabled.
+  /// Checks those parts of the drawn surface that the latest changes affect; if `whole`, also checks the whole surface
+  /// from scratch. Merges the result into `checked`. Does nothing if checks are not enabled.
   Result<void> checkFrame(bool whole, CheckedFrames& checked);
 
   /// Whether a place on the surface, in units, is drawn at level 0: a drawn level-0 chunk contains the place or a point
   /// within one grid cell (`cell` units) of it.
   bool finestAt(const int32_t (&place)[3], int32_t cell) const;
-  /// Whether every drawn chunk that may have triangles within `distance` metres has a collider, even an outdated one.
+  /// Whether every drawn chunk that may have triangles within `distance` metres has a collider; a collider of an
+  /// earlier mesh of the chunk suffices.
   bool collidesNear(const Metres3& place, double distance) const;
-  /// Compares the numbers of triangles of all colliders with those of the drawn chunks, and counts drawn chunks within
+  /// Compares the number of triangles of each collider with that of its drawn chunk, and counts drawn chunks within
   /// `distance` metres without a collider. Call it only when the world is idle.
   ColliderReport checkColliders(const Metres3& place, double distance) const;
 

@@ -91,8 +91,8 @@ FlightPath FlightPath::through(const PathPoints& path) {
   };
   const double finest = std::max(kFinest, lengthAlong(path.points) / kMaxPlaces);
   const std::vector<Metres3> points = splinePoints(path.points, finest / 2, path.loop);
-  // Choose the spacing so that the length is a whole number of spacings. The rounding margin ensures that the last
-  // place is not lost and that a loop closes.
+  // Choose the spacing such that the length is a whole number of spacings. The length is reduced slightly, so that
+  // rounding errors cannot lose the last place or open a loop.
   const double length = (1 - 1e-9) * lengthAlong(points);
   FlightPath flight(length / std::max(1.0, std::round(length / finest)));
   flight.loop_ = path.loop;

@@ -20,7 +20,7 @@ constexpr int64_t kFarthestLook = 81'000;
 constexpr size_t kMaxNodes = 1'000'000;  // maximum number of visited nodes in a search
 constexpr int64_t kShortest = 240;       // minimum path cost of a planned piece of path, in tenths of a step
 constexpr size_t kWorthIt = 500;         // minimum number of nodes that must be reachable from a starting point
-constexpr int kRegion = 16;              // edge of a region in steps; a region counts as visited as a whole
+constexpr int kRegion = 16;              // Edge, in steps, of the regions that are marked as visited as a whole.
 constexpr int kTries = 40;               // maximum number of attempts to find a far place or a waypoint
 constexpr int kGoals = 24;
 constexpr int kWays = 8;  // number of paths to each goal that are tried
@@ -69,7 +69,8 @@ double FlightPlanner::spacing() const { return metres(grid_->step()) / 4; }
 Result<FlightPlanner> FlightPlanner::begin(sgm_field* field, const sgm_grammar* grammar, const AutoFlight& settings) {
   std::optional<Error> error;
   AutoFlight narrower = settings;
-  // If the caller does not require a clearance, retry with half of the chosen clearance.
+  // If the caller requires no particular clearance, there is a second attempt, with half of the clearance that the
+  // first attempt used.
   for (int attempt = 0; attempt < (settings.room > 0 ? 1 : 2); ++attempt) {
     FlightPlanner planner(field, grammar, narrower);
     const Result<void> settled = planner.settle(unitsOf(settings.near_place), 512 * kUnitsPerMetre);
@@ -100,8 +101,8 @@ Result<void> FlightPlanner::settle(Int3 near, int32_t reach) {
     return false;
   };
   if (settleAt(domain_.solid != 0 ? anchorsNear(near, reach) : std::vector<Int3>{near})) return {};
-  // If there is no usable anchor, search the void everywhere, nearest places first, since sampling a place costs the
-  // derivation of grammar cells.
+  // If there is no usable anchor, search for void everywhere. Begin with the nearest places, because each sample
+  // requires the derivation of grammar cells.
   for (int32_t half = 32 * kUnitsPerMetre; domain_.solid != 0 && half <= reach; half *= 4) {
     const Result<std::vector<Int3>> found = voidsNear(near, half);
     if (!found) return found.error();
@@ -126,7 +127,8 @@ Result<std::vector<Int3>> FlightPlanner::voidsNear(Int3 near, int32_t half) {
   std::stable_sort(lattice.begin(), lattice.end(),
                    [&](Int3 a, Int3 b) { return distanceSquared(a, near) < distanceSquared(b, near); });
   std::vector<Int3> places;
-  // Sample the places in batches: the first batch usually suffices, and needs the derivation of few grammar cells.
+  // Sample the places in batches. The first batch usually suffices, and requires the derivation of only a few grammar
+  // cells.
   constexpr size_t kAtOnce = 512;
   for (size_t first = 0; first < lattice.size() && places.size() < kMaxPlaces; first += kAtOnce) {
     const std::span<const Int3> asked = std::span(lattice).subspan(first, std::min(kAtOnce, lattice.size() - first));

@@ -13,9 +13,9 @@ namespace sgm::cli {
 
 struct AutoFlight {
   uint64_t seed = 0;  ///< seed of the random choices; the same seed gives the same path
-  /// Clearance in metres that the path needs on both sides along each axis. Where no such path exists, a quarter of it
-  /// suffices. 0: chosen by the kind of world: 0.5 in rock, 0.5 to 4 in an open world, and half of that if it is too
-  /// narrow.
+  /// Clearance in metres that the path needs on both sides along each axis. Where no such path exists, a quarter of the
+  /// clearance suffices. 0: chosen by the kind of world: 0.5 in rock, 0.5 to 4 in an open world, and half of that if
+  /// the void is too narrow.
   double room = 0;
   Metres3 near_place{0};  ///< the flight begins near this position, if there is enough void
 };
@@ -34,9 +34,9 @@ class FlightPlanner {
   /// if no path continues.
   Result<std::vector<Metres3>> next();
 
-  /// Continues the path from a far place that depends only on seed and number: 500 m to 5 km from the beginning, near
-  /// an anchor if there is one; in a finite world, at a random place. Error: limit if no place with enough void is
-  /// found.
+  /// Continues the path from a far place that depends only on the seed and the number. The place is 500 m to 5 km from
+  /// the beginning, near an anchor if there is one; in a finite world, it is a random place. Error: limit if no place
+  /// with enough void is found.
   Result<void> teleport(uint64_t number);
 
  private:

@@ -53,8 +53,9 @@ Result<void> FrameChecker::redraw(const sgm_chunk_key& key, const DrawnParts& pa
   const auto at = chunks_.find(keyOf(key));
   if (at == chunks_.end()) return malformed(keyOf(key), "is not drawn");
   CheckedChunk& chunk = at->second;
-  // Among the vertices of a seam, only lateral ones (at corners where two levels meet) depend on the neighbouring
-  // blocks, through the fan numbers that identify them. Since seams are small, re-add a whole seam if its fans change.
+  // The lateral vertices of a seam lie at corners where two levels meet. Their keys contain fan numbers, which depend
+  // on the blocks around; no other keys do. If the fan numbers change, the whole seam is removed and added again, which
+  // is cheap because seams are small.
   std::array<bool, 1 + SGM_FACE_COUNT> stays{true};
   forEachDrawn(chunk, [&](CheckedPart&, size_t number) {
     if (number == 0) return;

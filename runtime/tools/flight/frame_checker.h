@@ -74,8 +74,8 @@ class FrameChecker {
   std::vector<uint32_t> free_ids_;
   uint32_t next_id_ = 0;
   std::vector<uint32_t> first_;  ///< scratch memory, used within one call
-  /// Scratch memory: uses of edges inside a body. Each packs both vertex numbers, the lower first; the last bit is set
-  /// if the edge is used in the reverse direction.
+  /// Scratch memory: uses of edges inside a body. Each value packs both vertex numbers of an edge, the lower first; its
+  /// last bit is set if a triangle uses the edge in the reverse direction.
   std::vector<uint64_t> inside_;
   PairScratch pairs_{std::pmr::new_delete_resource()};
   FrameReport report_;

@@ -9,8 +9,8 @@
 namespace sgm::cli {
 namespace {
 
-/// The key of a feature vertex in a body (seam is null) or in a seam; nullopt if a body or this seam cannot contain the
-/// vertex.
+/// Returns the key of a feature vertex in a chunk's body (if seam is null) or in the seam `seam`. Returns nullopt if
+/// the vertex cannot belong to the body or to this seam.
 std::optional<VertexKey> featureKey(const ChunkGrid& grid, const VertexPlace& vertex, const SeamOf* seam) {
   const bool of_cell = (vertex.kind >> 14 & 1) != 0, coarser = (vertex.kind >> 13 & 1) != 0;
   if (seam == nullptr ? coarser : of_cell) return {};

@@ -38,7 +38,7 @@ struct VertexKeyHash {
 bool isFeature(const VertexPlace& vertex);
 
 /// Whether the vertex lies on no face of its chunk, so that no other chunk can share it. Always false for feature
-/// vertices, which other chunks may share even off the face.
+/// vertices, which another chunk may share even if they lie on no face.
 bool isInside(const VertexPlace& vertex);
 
 }  // namespace sgm::cli

@@ -11,7 +11,7 @@ namespace sgm::cli {
 namespace {
 
 constexpr int32_t kWorldEnd = 2'000'000 * kUnitsPerMetre;
-constexpr size_t kMaxBlocks = size_t{1} << 16;  // cache limit; each block takes half a kilobyte
+constexpr size_t kMaxBlocks = size_t{1} << 16;  // maximum number of cached blocks; each block takes half a kilobyte
 
 constexpr int32_t floorDivide(int32_t a, int32_t b) { return static_cast<int32_t>(floorDiv(a, b)); }
 
@@ -122,8 +122,8 @@ std::optional<Int3> VoidGrid::nearestClear(Int3 node, int radius) {
 
 VoidSearch::VoidSearch(VoidGrid& grid, Int3 from, size_t most, const std::function<int64_t(Int3)>& guess,
                        const std::function<bool(Int3, int64_t)>& visit) {
-  // Estimated total cost (cost so far plus guess), and node: nodes of equal cost are ordered by position, so that the
-  // search is deterministic.
+  // A queued node: its estimated total cost (cost so far plus guess), and its position. Nodes of equal cost are ordered
+  // by position, so that the search is deterministic.
   using Entry = std::tuple<int64_t, Int3>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto left = [&](Int3 node) { return guess ? guess(node) : 0; };

@@ -1,5 +1,5 @@
 #pragma once
-// Samples the void of a field on a grid, on demand, and searches paths through it for a flight.
+// Samples a field on a grid, on demand, and searches for paths of a flight through its void.
 
 #include <sgm/sgm.h>
 
@@ -37,7 +37,8 @@ class VoidGrid {
   Int3 nodeAt(Int3 place) const;
 
   bool isClear(Int3 node);
-  /// Marks a node as not clear until unblock() is called: its obstacle is too thin for the grid to detect.
+  /// Marks a node as not clear until unblock() is called. Serves for obstacles near a node that are too thin for the
+  /// grid to detect.
   void block(Int3 node) { blocked_.insert(node); }
   void unblock() { blocked_.clear(); }
   /// The clear node that is nearest to `node`, at most `radius` steps away on each axis; nullopt if there is none.
@@ -46,7 +47,7 @@ class VoidGrid {
   const std::optional<Error>& error() const { return error_; }
 
  private:
-  /// Number of nodes along each axis of a block, whose nodes are sampled together.
+  /// Number of nodes along each axis of a block. All nodes of a block are sampled together.
   static constexpr int kBlock = 16;
   using Block = std::bitset<kBlock * kBlock * kBlock>;
   const Block& blockAt(Int3 at);
@@ -60,12 +61,13 @@ class VoidGrid {
   std::optional<Error> error_;
 };
 
-/// An A* search from a start node over clear nodes, in the order of their path cost.
+/// An A* search over clear nodes from a start node: it visits the nodes in the order of their path cost plus the
+/// estimated remaining cost.
 class VoidSearch {
  public:
-  /// guess: estimates the remaining cost from a node, in tenths of a step; null: 0 everywhere, so that all paths are
-  /// optimal. A step beside a wall costs twice its length. visit: called with each node when it is reached; returns
-  /// false to stop. The search ends after `most` nodes.
+  /// guess: estimates the remaining cost from a node, in tenths of a step; null: the estimate is 0 everywhere, so that
+  /// all paths are optimal. A step beside a wall costs twice its length. visit: called with each node when it is
+  /// reached; returns false to stop. The search ends after `most` nodes.
   VoidSearch(VoidGrid& grid, Int3 from, size_t most, const std::function<int64_t(Int3)>& guess,
              const std::function<bool(Int3 node, int64_t cost)>& visit);
 

@@ -17,7 +17,7 @@ class NoThreads final : public JobSystem {
   bool help() override { return false; }
 };
 
-/// Counts the intersecting pairs of triangles of different parts (see WholeReport::between_parts).
+/// Counts faulty pairs of triangles, except pairs within one body (WholeReport::between_parts).
 uint64_t countBetweenParts(const CheckedChunks& chunks) {
   struct Owner {
     int level;
@@ -59,8 +59,8 @@ uint64_t countBetweenParts(const CheckedChunks& chunks) {
     tree.visitPairs(walk, UINT64_MAX, [&](uint32_t a, uint32_t b) {
       const Owner &first = parts[owners[a]], &second = parts[owners[b]];
       if (owners[a] == owners[b]) {
-        // Pairs within a body are already counted by countTriangles(), so skip them. Triangles of one seam may
-        // coincide, so count them only if they pierce each other.
+        // Skip pairs within a body: countTriangles() already counts them. Triangles of one seam may coincide, so count
+        // them only if they pierce each other.
         if (first.body) return;
       } else if (first.body && second.body && first.level == second.level) {
         pairs += measure::pairFault(cornersOf(a), cornersOf(b)) != PairFault::none;

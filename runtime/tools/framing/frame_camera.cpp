@@ -25,7 +25,7 @@ struct Spot {
   glm::vec3 position{0}, normal{0};
 };
 
-/// The centres of up to kMaxSpots triangles, selected evenly from the target.
+/// The centres of up to kMaxSpots triangles of the target, which are selected at even intervals.
 std::vector<Spot> spotsOf(const RayCaster& mesh, const FrameTarget& target) {
   std::vector<Spot> spots;
   const size_t count = target.triangles.size(), taken = std::min(count, kMaxSpots);
@@ -55,7 +55,7 @@ float distanceFor(const FrameTarget& target, glm::vec3 away, const RenderCamera&
   return distance;
 }
 
-/// A possible view. Whether its camera position is outside all solids has not been tested yet.
+/// A possible view. Its camera position may still lie in a solid: that is tested later.
 struct Candidate {
   FramedView view;
   float score = 0;
@@ -132,7 +132,7 @@ Result<std::optional<FramedView>> frameTargets(std::span<const RenderVertex> ver
   for (size_t index = 0; index < targets.size(); ++index) {
     const size_t first = framer.candidates.size();
     framer.tryAll(targets[index], index);
-    // Prefer targets near the scene's centre, because the border of the scene may cut objects.
+    // Prefer targets near the scene's centre, because objects at the border of the scene may be cut off.
     const float off = glm::distance(0.5f * (targets[index].lo + targets[index].hi), centre);
     for (size_t i = first; i < framer.candidates.size(); ++i) framer.candidates[i].score -= off / size;
   }

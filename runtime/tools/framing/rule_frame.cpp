@@ -15,7 +15,8 @@ namespace {
 constexpr size_t kMaxUses = 50'000;
 // Minimum and maximum edge of a grid cell, in units.
 constexpr int32_t kSmallestCell = 16, kLargestCell = kUnitsPerMetre / 2;
-// Minimum number of grid cells across a use (application) of a rule, unless the cells would be too small.
+// Minimum number of grid cells across a use (application) of a rule; there are fewer if the cells would be smaller than
+// kSmallestCell.
 constexpr int32_t kCellsAcross = 12;
 constexpr int64_t kRegionCells = 352;  // number of grid cells along the region's longest edge
 
@@ -45,8 +46,8 @@ std::map<std::string, uint32_t> namesOf(const Program& program) {
   return names;
 }
 
-/// The known name that is most similar to `wanted`. The result includes the name of the import, even if `wanted` does
-/// not.
+/// Returns the known name that is most similar to `wanted`; "" if none is similar. The result includes the name of the
+/// import, even if `wanted` does not.
 std::string nearName(const std::map<std::string, uint32_t>& names, const std::string& wanted) {
   Suggestion whole(wanted), bare(wanted);
   std::map<std::string, std::string> without;
@@ -88,14 +89,14 @@ double squareFromOrigin(const IntBox& box) {
 
 FrameRegion around(const IntBox& use) {
   const int64_t size = longestEdge(use);
-  // Long and thin uses need smaller cells to resolve their thickness.
+  // Long and thin shapes need smaller cells, which resolve their thickness.
   int64_t detail = size;
   for (int axis = 0; axis < 3; ++axis) detail = std::min(detail, int64_t{use.hi[axis]} - use.lo[axis]);
   detail = std::max(detail, size / kCellsAcross);
   FrameRegion frame;
   frame.cell = kLargestCell;
   while (frame.cell > kSmallestCell && frame.cell * kCellsAcross > detail) frame.cell /= 2;
-  // Add space around the use for the camera and the background.
+  // Add space around the shapes of the rule's use, for the camera and the background.
   const int64_t wanted = std::max<int64_t>(6 * size, int64_t{24} * kUnitsPerMetre);
   const int64_t half = std::max(std::min(wanted, kRegionCells / 2 * frame.cell), size);
   for (int axis = 0; axis < 3; ++axis) {
@@ -119,8 +120,9 @@ Result<FramedRule> findFramedRule(const Program& program, std::string_view text)
   std::string name(last.name);
   if (!last.qualifier.empty()) name = fmt::format("{}.{}", last.qualifier, last.name);
   if (framed.by_path) {
-    // A path may pass through imported files, where qualifiers are the names of those files' own imports. So select
-    // candidate rules by the last name only; matchesPath() compares the whole path later.
+    // If a path passes through an imported file, its further names are qualified by that file's own import names, which
+    // `names` does not contain. So select candidate rules by the last name only; matchesPath() compares the whole path
+    // later.
     for (uint32_t rule = 0; rule < program.rules.size(); ++rule)
       if (program.text(program.rules[rule].name) == last.name) framed.rules.push_back(rule);
   } else if (const auto found = names.find(name); found != names.end()) {

@@ -31,8 +31,8 @@ struct RuleUse {
   std::shared_ptr<const DerivedCell> alone;
 };
 
-/// Finds the uses of the rule in a box that create shapes and have finite bounds. Errors: limit if there are too many;
-/// those of derivation.
+/// Finds, in a box of the world, those uses of the rule that create shapes and have finite bounds. Errors: limit if
+/// there are too many; those of derivation.
 Result<std::vector<RuleUse>> usesIn(const WorldField& world, const FramedRule& wanted, const IntBox& box);
 
 /// A region around a rule use, and a grid cell size that suits the size of the use.

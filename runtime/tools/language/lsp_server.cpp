@@ -25,7 +25,8 @@ constexpr int kParseError = -32700, kInvalidRequest = -32600, kMethodNotFound = 
 constexpr const char* kNotOpen = "this document is not open: send textDocument/didOpen first";
 constexpr int kErrorSeverity = 1, kWarningSeverity = 2;
 
-/// URI scheme of the standard library's modules. Editors request the text of such a URI with sgm/standardText.
+/// URI scheme of the standard library's modules. Editors request the text of such a module with the request
+/// sgm/standardText.
 constexpr std::string_view kStandardUri = "sgm-std:/";
 
 Json toJson(const TextPosition& p) { return {{"line", p.line}, {"character", p.character}}; }
@@ -39,8 +40,8 @@ uint32_t offsetAt(const DocumentText& text, const Json& params) {
   return text.offset({position.at("line").get<uint32_t>(), position.at("character").get<uint32_t>()});
 }
 
-/// Applies a change of the client to a text. The server requests whole texts, but a client may also send the
-/// replacement of a range.
+/// Applies a text change that the client has sent. The server asks for whole texts, but a client may also send a
+/// replacement for a range of the text.
 DocumentText changed(const DocumentText& before, const Json& change) {
   std::string text = change.at("text").get<std::string>();
   if (!change.contains("range") || change.at("range").is_null()) return DocumentText(std::move(text));
@@ -139,7 +140,7 @@ std::vector<Json> LanguageServer::handle(const Json& message) {
   const bool object = message.is_object();
   const Json id = object && message.contains("id") ? message.at("id") : Json();
   const bool request = object && message.contains("id");
-  // Messages with a result or an error are responses. Ignore them, because this server sends no requests.
+  // A message with a result or an error is a response. This server sends no requests, so it ignores responses.
   if (object && !message.contains("method") && (message.contains("result") || message.contains("error"))) return out;
   if (!object || !message.contains("method") || !message.at("method").is_string() ||
       (request && !id.is_string() && !id.is_number_integer())) {
@@ -149,7 +150,8 @@ std::vector<Json> LanguageServer::handle(const Json& message) {
   }
   const std::string method = message.at("method");
   const Json params = message.contains("params") ? message.at("params") : Json::object();
-  // The JSON library throws an exception if params do not follow the protocol.
+  // If params do not follow the protocol, the JSON library throws an exception; the handler below converts it to an
+  // error answer.
   try {
     if (!request) {
       notify(method, params, out);

@@ -15,7 +15,7 @@
 namespace sgm::cli {
 
 /// Implements the Language Server Protocol 3.17 for grammars: diagnostics, completion, hover, definition, symbols,
-/// formatting. The text of an open document takes precedence over its file; imports are searched in the folder of the
+/// formatting. The text of an open document takes precedence over its file; imports are looked up in the folder of the
 /// importing document. Not thread-safe.
 class LanguageServer {
  public:

@@ -40,7 +40,7 @@ class DocumentText {
   std::string text_;
   std::vector<Mark> marks_;      ///< all marks, in ascending order of their offsets
   std::vector<uint32_t> lines_;  ///< offsets of line starts as editors count them: a single \r also ends a line
-  std::vector<uint32_t> rows_;   ///< offsets of line starts as the compiler counts them
+  std::vector<uint32_t> rows_;   ///< offsets of line starts as the compiler counts them: only \n ends a line
 };
 
 /// The path of a file URI: "file:///a%20b.sgm" becomes "/a b.sgm"; empty for any other URI.

@@ -97,7 +97,7 @@ constexpr std::array<Tint, 14> kTints{{{"white", rgb(0.80f, 0.79f, 0.76f), 0.85f
                                        {"dark", rgb(0.0f, 0.0f, 0.0f), 0.50f},
                                        {"pale", rgb(0.85f, 0.84f, 0.82f), 0.40f}}};
 
-/// A word that stands for a material of the table, if a name contains no word of the table.
+/// A word, such as "wall", that stands for a material of the table. It is used if a name contains no word of the table.
 struct Synonym {
   std::string_view word, means;
 };
@@ -152,8 +152,9 @@ std::optional<MaterialLook> tinted(std::string_view name) {
   return look;
 }
 
-/// The look of a name with several words ("old_brick_wall"): that of the first word in the table, otherwise that of the
-/// first synonym. A tint word and "wet" modify the look. So "brick_wall" is brick, while "wall" alone means plaster.
+/// The look of a name with several words ("old_brick_wall"): the look of its first word that is in the table; if there
+/// is none, the look of its first synonym. A tint word and "wet" modify the look. So "brick_wall" is brick, while
+/// "wall" alone means plaster.
 std::optional<MaterialLook> byWords(std::string_view name) {
   const MaterialLook *named = nullptr, *meant_one = nullptr;
   bool is_wet = false;

@@ -43,11 +43,11 @@ enum class SurfacePattern : uint32_t {
   glowing,  ///< emits light: the pane of a lit lantern, embers
   lying,    ///< wood with horizontal grain: beams, planks, sleepers
   lava,     ///< frozen basalt: dark crust, glazed and rusty in patches, cracked on floors
-  leaded,   ///< small panes of stained glass in strips of lead, which transmit light
+  leaded,   ///< small panes of stained glass, framed by strips of lead; the panes transmit light
 };
 
-/// Values of MaterialLook::relief for glass, which select the scene behind the pane: a living room, the real scene
-/// (clear glass), a shop, an office, a curtain or a blind close behind the pane.
+/// Values of MaterialLook::relief for glass, which select what is visible through the pane: a painted living room, the
+/// real scene (clear glass), a shop, an office, or a curtain or blind close behind the pane.
 constexpr float kRoomBehind = 0, kClearPane = 1, kShopBehind = 2, kOfficeBehind = 3, kCurtainBehind = 4,
                 kBlindBehind = 5;
 
@@ -62,9 +62,9 @@ struct MaterialLook {
 /// The look of a material name in the table ("plaster"), optionally with a tint as the last word ("plaster_ochre") or
 /// with the prefix "wet_" ("wet_limestone"). Returns nullopt if the name is unknown.
 std::optional<MaterialLook> findLook(std::string_view name);
-/// The look of any material name. A name that findLook() does not know gets the look of its first word in the table
-/// ("old_brick_wall": brick), otherwise of its first synonym ("road": asphalt), otherwise of rock with a tint that
-/// depends on the name.
+/// The look of any material name. If findLook() does not know the name, its first word that is in the table gives the
+/// look ("old_brick_wall": brick). If there is none, its first synonym does ("road": asphalt). If there is none either,
+/// the look is rock with a tint that depends on the name.
 MaterialLook lookOf(std::string_view name);
 
 }  // namespace sgm

@@ -77,7 +77,7 @@ Axis::Axis(const AxisStyle& style, std::span<const double> values, int most) : l
 }
 
 void Axis::markLinear(int most, bool widen_low, bool widen_high) {
-  // Extending the ends to whole steps may need one tick more than fits: then use the next larger step.
+  // If the ends are extended to whole steps, there may be one tick more than fits. Then the next larger step is used.
   double step = niceStep((high_ - low_) / most);
   const auto first = [&] { return std::floor(low_ / step + 1e-9); };
   const auto last = [&] { return std::ceil(high_ / step - 1e-9); };

@@ -1,5 +1,5 @@
 #pragma once
-// Opens the backends of this machine that are compared in the stages of the paper's tables.
+// Opens this machine's backends whose times the paper's tables compare, stage by stage.
 
 #include <string>
 #include <vector>

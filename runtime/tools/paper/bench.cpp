@@ -38,9 +38,9 @@ Exit benchPaper(const BenchOptions& options) {
   for (const StageModel& model : stageModels()) {
     const Result<int32_t> cell = cellOf(options, model);
     if (!cell) return reportError(cell.error());
-    // Open the devices anew for each stage, as in a process that generates only this stage: software devices specialize
-    // their code for all kinds of instructions that they have met, and each kind costs time even in stages that do not
-    // use it.
+    // Open the devices again for each stage, so that a stage is measured as in a process of its own. Otherwise, a
+    // software device would slow down later stages: it specializes its code for every kind of instruction that it has
+    // met so far.
     const Result<std::vector<BackendRun>> backend_runs = makeBackendRuns(options.backends, options.threads);
     if (!backend_runs) return reportError(backend_runs.error());
     Result<StageResult> result = measure(options, model, *cell, *backend_runs);
@@ -52,7 +52,7 @@ Exit benchPaper(const BenchOptions& options) {
   } else {
     print(options, results);
   }
-  // A requested backend that is missing has a row in the output, but also sets the exit status to an error, as in other
+  // If a requested backend is missing, the output has a row for it, and the exit status is an error, as in other
   // commands.
   Exit status = Exit::done;
   for (const StageRow& row : results.back().rows) {

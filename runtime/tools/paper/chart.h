@@ -20,7 +20,7 @@ struct Series {
     steps,   ///< a filled histogram: each value holds until the next point
   };
   std::string name;
-  std::vector<std::array<double, 2>> points;  ///< (x, y); points that the axes cannot show are omitted
+  std::vector<std::array<double, 2>> points;  ///< points (x, y); points that the axes cannot show are not drawn
   Style style = Style::line;
 };
 
@@ -28,7 +28,7 @@ struct LineChart {
   std::string title;  ///< text alternative for readers who cannot see the chart
   AxisStyle x, y;
   std::vector<Series> series;
-  int width = 640, height = 360;  ///< size of the SVG's view box, which the page scales; at least 200 by 150
+  int width = 640, height = 360;  ///< size of the SVG's view box, at least 200 by 150; the page scales it
 };
 Markup drawn(const LineChart& chart);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Makes the command line that repeats a measurement when it is run in the folder of the report.
+// Makes the command line for repeating a measurement. It must be run in the folder that contains the report.
 
 #include <string>
 

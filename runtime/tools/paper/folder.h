@@ -22,10 +22,10 @@ inline constexpr const char* kReportPage = "index.html";
 inline constexpr const char* kReportManifest = "manifest.txt";
 inline constexpr const char* kReportSign = "The files of a report of sgm paper by XXH64";
 
-/// Checks whether a report may be written to `target`: the path does not exist, or is an empty folder, or is an earlier
-/// report to which no file was added and in which no file was changed. Leaves no files. signals: see writeReportFolder.
-/// Error: io if anything else is at `target`, the parent folder is not writable, or its file system cannot exchange an
-/// earlier report for a new one.
+/// Checks whether a report may be written to `target`: the path does not exist, is an empty folder, or is an earlier
+/// report whose files are unchanged, without additional files. Leaves no files. signals: see writeReportFolder. Error:
+/// io if anything else is at `target`, the parent folder is not writable, or its file system cannot exchange an earlier
+/// report for a new one.
 Result<void> checkReportFolder(const std::filesystem::path& target, EndingSignals* signals = nullptr);
 
 /// Writes the files and their manifest into a temporary folder beside the target, and then renames this folder to the

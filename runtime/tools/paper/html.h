@@ -37,7 +37,7 @@ Markup emptyElement(std::string_view tag, const Attributes& attributes);
 
 /// Makes a table. The first row is the head; the first cell of each other row is its row header.
 Markup table(std::string_view caption, const std::vector<std::vector<Markup>>& rows);
-/// Makes a table as above, but from plain text.
+/// Makes a table from plain text, with the same head and row headers as the overload for Markup.
 Markup table(std::string_view caption, const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace sgm::cli

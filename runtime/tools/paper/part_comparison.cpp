@@ -1,4 +1,5 @@
-// Table 4: represents each system by a grammar, and checks each YES of the table by a measurement.
+// The part of the report about table 4 of the paper: represents each system in the table by a grammar, and checks each
+// YES of the table by a measurement.
 
 #include <fmt/core.h>
 

@@ -32,7 +32,8 @@ struct Sample {
 
 struct Sampled {
   const Model* model = nullptr;
-  std::vector<Sample> samples;  ///< one sample for each density, the coarsest first; each halves the cell size
+  std::vector<Sample> samples;  ///< one sample for each density, the coarsest first; each next sample has half the cell
+                                ///< size
 };
 
 Result<Sampled> sample(ReportContext& report_context, const Model& model, int steps,
@@ -76,8 +77,8 @@ std::vector<double> valuesOf(const Sampled& sampled, double Sample::*of) {
   return values;
 }
 
-/// Adds the chart, the table and the numbers of one measure of all models to the report item. of: the member that
-/// contains the measure.
+/// Adds one measure of all models to the report item: as a chart, a table and numbers. of: the member that contains the
+/// measure.
 void compare(const std::vector<Sampled>& all, double Sample::*of, const std::string& what, const std::string& unit,
              ReportItem& report_item) {
   LineChart chart;
@@ -122,9 +123,9 @@ void compare(const std::vector<Sampled>& all, double Sample::*of, const std::str
 
 /// Errors of the measures of a ball with a radius of 5 m, whose exact area and volume are known.
 struct BallErrors {
-  /// cell: edge of a grid cell, metres. The others are relative errors: of the mesh's area and volume, and of the
-  /// volume that is found by counting cubes with all corners inside the ball (all), with any corner inside (any), or
-  /// with the centre inside (centre).
+  /// cell: edge of a grid cell, metres. The other members are relative errors. area, volume: errors of the mesh. all,
+  /// any, centre: errors of the volume that is found by counting the cubes with all corners, any corner, or the centre
+  /// inside the ball.
   double cell = 0, area = 0, volume = 0, all = 0, any = 0, centre = 0;
 };
 

@@ -307,7 +307,8 @@ Result<ReportItem> classesItem(ReportContext& report_context) {
   Markup charts, tables;
   Json judgements = Json::array();
   for (const HistogramMode mode : kModes) {
-    // Use one cell per metre for the two modes of the paper, because models of every class exist at that density.
+    // The reference histograms of the paper's two modes depend on the density (cells per metre): use those for a
+    // density of 1, at which models of every class exist. The third mode has no density, which its key states as 0.
     const auto key = std::ranges::find_if(
         keys, [mode](const measure::MasterKey& k) { return k.mode == mode && (k.density == 0 || k.density == 1); });
     const Result<Judged> judged = judge(*models, static_cast<size_t>(key - keys.begin()), set);

@@ -17,7 +17,7 @@ namespace sgm::cli {
 namespace {
 
 constexpr uint64_t kWanted = 10;     // number of objects of the cloud in the paper: "10 separate elements"
-constexpr uint64_t kMaxClouds = 64;  // maximum number of seeds that are tried to find such a cloud
+constexpr uint64_t kMaxClouds = 64;  // maximum number of seeds that are tried to find a cloud with kWanted objects
 
 Result<uint64_t> objectsOf(ReportContext& report_context, const WorldOptions& options) {
   const Result<Region> region = report_context.mesh(options);

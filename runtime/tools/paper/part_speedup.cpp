@@ -34,7 +34,7 @@ constexpr double kCell = 0.5;  // edge of a grid cell, in metres
 /// The measurement for one number of position points, the parameter of figures 1 and 2.
 struct PointsRun {
   int points = 0;
-  /// Sizes of the field program that contains all points: shape nodes, and instructions.
+  /// numbers of shape nodes and of instructions in the field program that contains all points
   size_t nodes = 0, instructions = 0;
   StageResult result;
 };
@@ -87,7 +87,8 @@ Result<std::vector<PointsRun>> measurePoints(ReportContext& report_context, bool
   return all;
 }
 
-/// Increase of a quantity per position point, from the run with the fewest points to the run with the most.
+/// Increase of a quantity per position point: its difference between the runs with the most and the fewest points,
+/// divided by the difference of their numbers of points.
 double slope(const std::vector<PointsRun>& runs, size_t PointsRun::*of) {
   return static_cast<double>(runs.back().*of - runs.front().*of) / (runs.back().points - runs.front().points);
 }
@@ -163,8 +164,8 @@ ReportItem pointsItem(ReportContext& report_context, bool hybrid, const std::vec
   return report_item;
 }
 
-/// Compares our numbers of shape nodes and instructions per position point for the morphing and the hybrid rule, as the
-/// paper compares 41 nodes (morphing) with 14 (hybrid).
+/// Compares the morphing and the hybrid rule by our numbers of shape nodes and instructions per position point. The
+/// paper has 41 nodes per point for morphing, and 14 for the hybrid rule.
 Markup nodesCompared(const std::vector<PointsRun>& morphing, const std::vector<PointsRun>& hybrid) {
   const double before = slope(morphing, &PointsRun::nodes), after = slope(hybrid, &PointsRun::nodes);
   BarChart chart;

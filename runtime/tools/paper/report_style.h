@@ -3,8 +3,8 @@
 
 namespace sgm::cli {
 
-/// Style sheet of the report. Charts use the classes s0 to s5 for their series; these colours also differ in lightness.
-/// Variables such as --ink follow the reader's preference for light or dark.
+/// Style sheet of the report. The series of a chart use the classes s0 to s5. The colours of these classes also differ
+/// in lightness. Variables such as --ink depend on the reader's preference for light or dark.
 inline constexpr const char* kReportStyle = R"css(
 :root {
   color-scheme: light dark;

@@ -41,7 +41,7 @@ struct BackendRun {
 
 /// The times of one backend run in a stage.
 struct StageRow {
-  std::string name, device, reason;  ///< as in BackendRun
+  std::string name, device, reason;  ///< name, device and reason of the BackendRun
   unsigned workers = 0;
   double first = 0;             ///< seconds of the warm-up run, in which cells are derived and the device is prepared
   std::vector<double> seconds;  ///< seconds of each run after the warm-up; empty if the backend is not measured
@@ -57,8 +57,9 @@ struct StageResult {
   int32_t cell = 0;  ///< edge of a grid cell, in units
   IntBox extent;     ///< bounding box of all chunks that intersect the cube
   uint64_t chunks = 0, triangles = 0;
-  /// Number of evaluated instructions of field programs: the sum, over all bricks, of the length of the program pruned
-  /// to the brick times the number of samples and vertices. Counted in a separate run by the scalar evaluator.
+  /// Number of instructions of field programs that are evaluated. Each brick (block of samples) has its own pruned
+  /// program; the length of this program times the number of its samples and vertices is added up over all bricks.
+  /// Counted in a separate run by the scalar evaluator.
   uint64_t operations = 0;
   ContentHash hash;            ///< hash of all chunk meshes, which is the same for every backend and run
   std::vector<StageRow> rows;  ///< one row for each backend run
@@ -74,9 +75,10 @@ struct StageFigures {
 /// Computes the results of a row. Precondition: this row and the first row of the result are measured.
 StageFigures figuresOf(const StageResult& result, const StageRow& row);
 
-/// Generates the stage once with each backend, to warm up, then `runs` times with all backends in turn. A run begins
-/// with derived cells (except the first) and ends with packed meshes; each backend has its own world. step: called
-/// after every run. Errors: those of meshing; bad_input if the meshes of two backends differ, with the names of both.
+/// Generates the stage once with each backend, to warm up, then `runs` times with all backends in turn. Each backend
+/// has its own world, whose grammar cells are derived in the first run and cached for the later runs. A run ends when
+/// the meshes are packed. step: called after every run. Errors: those of meshing; bad_input if the meshes of two
+/// backends differ, with the names of both.
 Result<StageResult> measureStage(const StageModel& model, int32_t cell, uint64_t runs,
                                  std::span<const BackendRun> backend_runs, const std::function<void()>& step);
 

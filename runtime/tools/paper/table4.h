@@ -56,8 +56,10 @@ struct ComparedSystem {
   const char* view_set;  ///< assignment for the option --set; null: none
   bool sharp;
   const char* alt;
-  const char* without;                ///< explains each NO in the paper's table, and each NO in our measurements
-  std::array<Excerpt, 3> excerpts{};  ///< the parts that are classified for kClouds, kArchitecture and kCaves
+  /// text that explains each criterion with NO, in the paper's table or in our measurements
+  const char* without;
+  std::array<Excerpt, 3> excerpts{};  ///< parts of the region that are classified to test the criteria kClouds,
+                                      ///< kArchitecture and kCaves, in this order
 };
 
 std::span<const ComparedSystem> comparedSystems();

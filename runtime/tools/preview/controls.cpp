@@ -17,7 +17,8 @@ constexpr const char* kHelp =
     "WASD QE: walk   H: first view   P: print the command\n"
     "click: print the rule   Esc: close";
 
-/// The unit in which values of a dimension are displayed, and the factor from the program's own unit to it.
+/// The unit in which values of a dimension are displayed, and the factor that converts the program's own unit to the
+/// displayed unit.
 struct Unit {
   const char* format;
   double factor = 1;

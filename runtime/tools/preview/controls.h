@@ -15,17 +15,17 @@ class Controls {
  public:
   explicit Controls(const cli::RenderOptions& options);
 
-  /// Adds controls for the parameters of a program. Values that the user has set are kept if they are valid for this
-  /// program.
+  /// Adds controls for the parameters of a program. Values that the user has set are kept; a value that is not valid
+  /// for this program is kept as text, in case it becomes valid again.
   void adopt(const std::shared_ptr<const Program>& program);
-  /// Draws the panel. Must be called within a Dear ImGui frame. Returns whether the user has changed a value.
+  /// Draws the panel; must be called within a Dear ImGui frame. Returns true if the user has changed a value.
   bool draw(const Painted& last, bool at_work);
 
   uint64_t seed() const { return seed_; }
   /// The light that the user has chosen, as a value of --light.
   std::string light() const;
-  /// Values of --set: assignments of all parameters that differ from their defaults, and those assignments of the
-  /// command line for which the program has no parameter.
+  /// Returns values of --set: assignments of all parameters that differ from their defaults, and the earlier
+  /// assignments that are not valid for the current program.
   std::vector<std::string> sets() const;
 
  private:
@@ -33,7 +33,8 @@ class Controls {
 
   uint64_t seed_;
   int light_ = 0;
-  std::vector<std::string> given_;  ///< values of --set on the command line
+  std::vector<std::string> given_;  ///< assignments NAME=VALUE (from --set or from the controls) that are not valid for
+                                    ///< the current program; they may be valid again after its next change
   std::shared_ptr<const Program> program_;
   std::vector<double> values_;  ///< values of the parameters, in the order of Program::params
 };

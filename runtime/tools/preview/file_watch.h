@@ -14,8 +14,8 @@ class FileWatch {
   /// Starts to watch these files instead of the previous files. They need not exist yet.
   void watch(std::vector<std::filesystem::path> files);
 
-  /// Whether a file differs from its state at watch() or at the last call that returned true, and has stayed the same
-  /// since the previous call. The second condition is for editors that write a file in several steps.
+  /// Returns true if a file has changed since watch() or since the last call that returned true, and has not changed
+  /// further since the previous call. The second condition is for editors that write a file in several steps.
   bool changed();
 
  private:

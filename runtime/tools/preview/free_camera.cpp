@@ -37,9 +37,9 @@ FreeCamera::Gaze FreeCamera::gaze() const { return {arrayOf(target_ - distance_ 
 
 void FreeCamera::turn(double right, double up) {
   const glm::dvec3 place = target_ - distance_ * forward();
-  // The dragged surface must follow the pointer. In a hollow, the camera therefore turns opposite to the drag. Outside,
-  // it orbits the target opposite to the drag and thus turns in the direction of the drag, so that the near side of the
-  // object follows the pointer.
+  // The dragged surface must follow the pointer. Inside a hollow, the camera turns in place, opposite to the drag.
+  // Outside of an object, the camera moves around the target, opposite to the drag; so the near side of the object
+  // follows the pointer, although the camera itself turns in the direction of the drag.
   const double way = inside_ ? -1 : 1;
   heading_ += way * right;
   pitch_ = std::clamp(pitch_ + way * up, -kSteepest, kSteepest);

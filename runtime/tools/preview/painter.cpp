@@ -35,7 +35,7 @@ std::string boxText(const IntBox& box) {
   return corner(box.lo) + ":" + corner(box.hi);
 }
 
-/// Whether a camera is far enough inside a box for the box to contain most of its view.
+/// Whether a camera is so far inside a box that the box contains most of the camera's view.
 bool isWithin(const IntBox& box, const std::array<double, 3>& camera) {
   for (int axis = 0; axis < 3; ++axis) {
     const double margin = (metres(box.hi[axis]) - metres(box.lo[axis])) / 4, at = camera[static_cast<size_t>(axis)];
@@ -89,7 +89,7 @@ struct Painter::Worker {
   std::vector<std::filesystem::path> files;  ///< files that were read, but are not yet part of a published result
 
   std::string world;          ///< key of the world to which the regions `draft` and `fine` belong
-  std::optional<IntBox> box;  ///< box of the world that is drawn
+  std::optional<IntBox> box;  ///< region of the world that the picture shows
   std::shared_ptr<const Region> draft, fine;
   std::string home;  ///< the camera that was chosen automatically, for requests that give none
   Light light = Light::sun;
@@ -176,7 +176,7 @@ Result<void> Painter::Worker::settle(Task& task) {
 
 Result<std::shared_ptr<const Region>> Painter::Worker::meshed(const Task& task, int level, bool draft_only) {
   RenderOptions options = task.options;
-  // Use a world with coarser cells instead of a coarse level of the picture's world: such a level would still be
+  // Use a world with coarser cells instead of a coarse level of the picture's world: the coarse level would still be
   // derived and sampled at the fine cell size of its world.
   options.cell = std::ldexp(*options.cell, level);
   std::optional<cli::RegionDensity> no_density;

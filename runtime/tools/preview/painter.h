@@ -35,7 +35,8 @@ struct Painted {
   std::string messages;  ///< messages for the user, one per line; empty: no problems
   /// The meshed region in the picture; null: there is no new picture, and the previous one stays valid.
   std::shared_ptr<const cli::Region> region;
-  /// Region in the picture in the form of --region, without the margin that the coarse chunks of a draft add.
+  /// The region in the picture, as a value for the option --region. In a draft, the coarse chunks extend beyond this
+  /// region.
   std::string box;
   double cell = 0;  ///< edge of a grid cell in the picture, metres; larger in a draft
   Image image;
@@ -55,7 +56,7 @@ class Painter {
 
   /// Requests a picture, and returns the number of the request, counted from 1.
   uint64_t request(DrawRequest request);
-  /// Returns the newest result if no call has returned it yet; otherwise nullopt.
+  /// Returns the newest result; nullopt if an earlier call has already returned it, or if there is none.
   std::optional<Painted> take();
 
  private:

@@ -16,7 +16,7 @@ using cli::gazeText;
 constexpr double kLook = 0.04;    // time between two checks of the grammar files, seconds
 constexpr double kRest = 0.15;    // time that the pointer must rest before the place under it is looked up, seconds
 constexpr double kTurn = 3.0;     // turn of the camera for a drag across the height of the picture, radians
-constexpr double kNearer = 0.85;  // factor of the distance to the target for each step of the mouse wheel
+constexpr double kNearer = 0.85;  // factor by which each step of the mouse wheel changes the distance to the target
 constexpr double kWalk = 0.6;  // speed of the camera while a key is held: share of the view's typical depth per second
 constexpr double kRadians = 0.017453292519943295;
 

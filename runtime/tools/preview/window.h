@@ -16,7 +16,7 @@ struct Mouse {
   double x = 0, y = 0;
   bool over_picture = false;  ///< true if the pointer is over the picture, not over a control
   double moved_x = 0, moved_y = 0;
-  bool left = false, right = false;  ///< true while the button, pressed over the picture, is held
+  bool left = false, right = false;  ///< true while the mouse button is held, if it was pressed over the picture
   bool clicked = false;              ///< true if the left button was released at the point where it was pressed
   double wheel = 0;                  ///< steps of the wheel; positive if rolled away from the user
 };
@@ -39,13 +39,14 @@ class Window {
   /// Draws the picture and the Dear ImGui controls. Does nothing if neither has changed. controls: called to define the
   /// controls.
   void draw(const std::function<void()>& controls);
-  /// Forces the next frames to be drawn. Necessary after changes that the window cannot detect.
+  /// Makes draw() draw the next few frames, even if picture and controls seem unchanged. Call it after changes that the
+  /// window cannot detect.
   void refresh();
 
   Mouse mouse() const;
-  /// Whether the key of an upper-case letter is held; false while the user types into a control.
+  /// Whether the key of `letter` (A to Z) is held down; always false while the user types into a control.
   bool isHeld(char letter) const;
-  /// Whether the key of an upper-case letter was pressed since the previous frame.
+  /// Whether the key of `letter` (A to Z) was pressed since the previous frame.
   bool isPressed(char letter) const;
   /// Size of the area of the window that shows the picture, in pixels.
   int width() const;

@@ -1,5 +1,5 @@
 #pragma once
-// Statistics of the brightness of visible surfaces, which determine a camera's exposure.
+// Statistics of the brightness of the visible surfaces. The camera's exposure is derived from these statistics.
 
 #include <array>
 #include <cstddef>
@@ -15,7 +15,7 @@ class BrightnessTally {
 
   /// Geometric mean of all counted values; 0 if no value was counted.
   float mean() const;
-  /// 95th percentile of the counted values, at most a twelfth off; 0 if no value was counted.
+  /// 95th percentile of the counted values, with a relative error of about 5 % (half a bin); 0 if no value was counted.
   float highlight() const;
 
  private:

@@ -16,7 +16,7 @@ constexpr int kSurroundings = 48;    // number of rays that measure the free spa
 constexpr size_t kCandidates = 240;  // maximum number of candidate camera positions
 constexpr size_t kFinalists = 16;    // maximum number of camera positions whose views are compared at low resolution
 constexpr size_t kStudied = 3;       // maximum number of camera positions whose views are compared in detail
-constexpr float kEyeHeight = 1.7f;   // metres, height of the camera above the floor
+constexpr float kEyeHeight = 1.7f;   // height of the camera above the floor, in metres
 // Maximum distance of a lamp from the camera, in multiples of the typical distance to surfaces.
 constexpr float kFarthestLamp = 3;
 constexpr float kGoldenAngle = 2.39996323f;
@@ -29,10 +29,10 @@ glm::vec3 directionOf(int i, int count) {
 }
 
 struct Space {
-  float openness = 0;  // mean logarithm of the distances to walls
+  float openness = 0;  // mean of the logarithms of the distances to walls
   float clearance = 0;
   float walls = 0;   // share of the rays that hit the front of a wall
-  float behind = 0;  // share of the rays that hit the back of a triangle, thus start in the solid
+  float behind = 0;  // share of the rays that hit the back of a triangle; such rays start inside the solid
 };
 
 Space spaceAround(const RayCaster& mesh, glm::vec3 p, float far) {
@@ -82,16 +82,16 @@ std::vector<Place> placesInVoid(const RayCaster& mesh, float far) {
     const glm::vec3 p = standing(mesh, start + n * (0.5f * across->distance), far);
     const Space space = spaceAround(mesh, p, far);
     if (!inVoid(space)) continue;
-    // A mesh of a region is open where the region's border cuts it: prefer places from which few rays escape through
-    // these holes.
+    // The border of the meshed region cuts holes into the mesh. The score prefers places from which few rays escape
+    // through these holes.
     places.push_back({p, space.openness + 2 * space.walls + 0.3f * std::log(space.clearance)});
   }
   std::ranges::stable_sort(places, std::greater{}, &Place::score);
   return places;
 }
 
-// Numbers of columns and rows of rays over the picture. kGlance (few rays) compares views; kStudy examines the chosen
-// one.
+// Grid of rays over the picture: number of columns and rows. The coarse kGlance compares many views; the fine kStudy
+// examines the best of them.
 struct Grid {
   int columns, rows;
 };
@@ -101,8 +101,8 @@ struct Fan {
   std::vector<glm::vec3> directions;
   std::vector<float> distances;
   float median = 0;
-  // Mean of the median and the upper quartile of `distances`: takes account of the background, not only of the near
-  // walls that frame the view.
+  // Typical distance: mean of the median and the upper quartile of `distances`. The upper quartile makes the background
+  // count, not only the near walls that frame the view.
   float typical = 0;
   float score = 0;
 };
@@ -191,8 +191,8 @@ Observation bestObservation(const RayCaster& mesh, glm::vec3 place, const Camera
   return best;
 }
 
-// Places one lamp at the side, whose slanting light shows relief, and up to three lamps where the view is deepest,
-// beyond the headlamp's reach. All lamps are in the void, at a distance from each other.
+// Places one lamp to the left or right of the camera, whose slanting light shows relief. Places up to three more lamps
+// where the view is deepest, beyond the headlamp's reach. All lamps are in the void, at a distance from each other.
 std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::vec3 forward, const Fan& fan,
                                    float far) {
   std::vector<RenderLamp> lamps;
@@ -202,7 +202,7 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
     if (crowded) return false;
     const Space space = spaceAround(mesh, p, far);
     if (space.clearance < 0.35f || space.behind > 0.05f || space.walls < 0.5f) return false;
-    // Limit the lamp's reach to the typical distance of the walls around it.
+    // The lamp's reach is the typical distance to the walls around it, but at least 1 m and at most `reach`.
     lamps.push_back({p, colour, std::clamp(std::exp(space.openness), 1.0f, reach)});
     return true;
   };
@@ -224,8 +224,8 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
     const float depth = fan.distances[i];
     if (deep == kColours.size() || depth < 1.15f * fan.median) break;
     if (depth >= far) continue;
-    // A limited distance keeps the lamp near the part that the other lamps light: a separate bright spot in the dark
-    // would look like a ball.
+    // Limit the lamp's distance, to keep the lamp near the parts of the view that the other lamps light. A bright spot
+    // alone in the dark would look like a ball.
     const float away = std::min(0.80f * depth, kFarthestLamp * fan.typical);
     const float reach = std::clamp(0.30f * away, 1.5f, 14.0f);
     if (hang(from + fan.directions[i] * away, kColours[deep], reach, 0.5f * away)) ++deep;
@@ -338,7 +338,8 @@ void lightScene(const View& view, Light light, RenderScene& scene) {
   scene.background = light == Light::sun ? Background::sky : Background::cave;
   switch (light) {
     case Light::sun:
-      // Between walls, little air scatters light from the sky, so the haze is thinner.
+      // Haze is air that scatters light from the sky. Between walls there is less of it, so the fog distance is larger
+      // there.
       scene.fog_distance = (view.enclosed ? 120.0f : 25.0f) * view.depth;
       return;
     case Light::lamp:

@@ -17,7 +17,7 @@ struct CameraRequest {
   /// Preferred camera positions, in metres from the scene's origin. Anchors outside the void are ignored; of the
   /// others, the one with the best view is chosen.
   std::span<const glm::vec3> anchors;
-  bool airborne = false;  ///< the shape floats in the air: a camera outside looks up at it
+  bool airborne = false;  ///< true if the shape floats in the air: a camera outside of the shape then looks up at it
 };
 
 /// A camera, and properties of its view.

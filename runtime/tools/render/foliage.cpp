@@ -22,9 +22,10 @@ constexpr float kTallest = 0.23f;                ///< metres, length of the tall
 constexpr float kReach = 0.15f, kDepth = 0.14f;  ///< metres, distances up to which leaves are placed outside a crown's
                                                  ///< surface (kReach) and inside it (kDepth)
 constexpr float kLeafLength = 0.062f;            ///< length of a leaf in metres
-constexpr float kLeastGrowth = -0.15f;           ///< minimum of growthAt() for leaves
+constexpr float kLeastGrowth = -0.15f;           ///< leaves grow only where growthAt() is at least about this
 constexpr size_t kMaxSprouts = size_t{6} << 20;  ///< maximum number of sprouts in a picture
-constexpr float kSteepest = 0.72f;               ///< minimum y component of a lawn's unit normal
+constexpr float kSteepest = 0.72f;               ///< minimum y component of the unit normal of ground with grass:
+                                                 ///< steeper ground has no grass
 
 bool grows(const Kind& kind, const RenderMaterial& material) {
   return material.pattern == kind.pattern && material.relief > 0;
@@ -77,8 +78,8 @@ class Sower {
  public:
   Sower(const RenderScene& scene, const Frame& frame) : scene_(scene), frame_(frame) {}
 
-  /// Adds the blades or leaves that grow on a triangle to `sprouts`. grown: result of grownOn() for the triangle, which
-  /// tells on which of its two materials they grow.
+  /// Adds the blades or leaves that grow on a triangle to `sprouts`. grown: result of grownOn() for the triangle: on
+  /// which of the triangle's two materials the foliage grows.
   void sow(const Kind& kind, int grown, const std::array<const RenderVertex*, 3>& corners,
            std::vector<Sprout>& sprouts) {
     const vec3 a = corners[0]->position, b = corners[1]->position - a, c = corners[2]->position - a;
@@ -198,7 +199,8 @@ Foliage foliageOf(const RenderScene& scene, const Frame& frame) {
   foliage.constants.eye = frame.eye;
   foliage.constants.offset = glm::vec4(glm::vec3(frame.pattern_offset), kLawn.far);
   Sower sower(scene, frame);
-  // About six triangles share a vertex, so the expensive noise is computed once for each vertex.
+  // About six triangles share a vertex, so the expensive noise is computed only once for each vertex. kUnknown marks a
+  // vertex for which it is not yet computed.
   constexpr float kUnknown = -2;
   std::vector<float> growth(scene.vertices.size(), kUnknown);
   for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {

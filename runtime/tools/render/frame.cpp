@@ -40,8 +40,8 @@ glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
 }
 
 constexpr float kMeadow = 1e6f;   // value of Frame::land.y for a meadow, as in shaders/render/frame.glsl
-constexpr float kBeyond = 0.85f;  // the sky's clouds begin at this share of the distance to the farthest cloud of the
-                                  // mesh
+constexpr float kBeyond = 0.85f;  // the clouds that the shader adds to the sky begin at this share of the distance to
+                                  // the farthest cloud in the mesh
 
 bool hasFairWeather(const RenderScene& scene) {
   const auto isCloud = [](const RenderMaterial& one) { return one.pattern == SurfacePattern::cloud; };

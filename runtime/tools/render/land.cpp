@@ -11,14 +11,17 @@
 namespace sgm {
 namespace {
 
-// Width of the strip inside the world's border in which the ground is examined, as a share of the world's width.
+// The ground is examined in a strip along the inside of the world's border. kBorder: width of this strip as a share of
+// the world's width.
 constexpr float kBorder = 0.06f;
 constexpr float kLeast = 0.05f;  // minimum share of the border strip ahead of the camera that must be ground
-constexpr float kEdge = 0.005f;  // share of the world's width: surfaces this near to the world's end count as cut off
-                                 // there
-constexpr float kAlive = 0.1f;   // minimum share of the ground with plants for a land with plants
-constexpr float kLevel = 0.7f;   // minimum cosine of the angle between the ground's normal and the vertical
-constexpr float kBelow = 0.3f;   // metres, minimum height of the eye above the ground
+constexpr float kEdge = 0.005f;  // Surfaces nearer to the world's border than this share of the world's width count as
+                                 // cut off by the border.
+constexpr float kAlive = 0.1f;   // if plants cover more than this share of the ground, the land gets a material with
+                                 // plants
+constexpr float kLevel = 0.7f;   // minimum cosine of the angle between the normal of ground and the vertical; steeper
+                                 // surfaces are not ground
+constexpr float kBelow = 0.3f;   // surfaces less than this many metres below the eye do not count as ground
 constexpr float kAside = 0.35f;  // a place is ahead if the cosine of its horizontal angle to the view exceeds this
 
 bool isBare(SurfacePattern pattern) {
@@ -88,7 +91,7 @@ std::optional<Land> landAround(const RenderScene& scene) {
     goes_on |= isCut(one.position) || isCut(b) || isCut(c);
     patches.push_back({one.position.y, size / 2, static_cast<uint32_t>(material)});
   }
-  // The horizontal area of the border ahead of the camera, estimated on a grid of points over the world.
+  // Estimate the horizontal area of the border strip ahead of the camera, on a grid of points over the world.
   constexpr int kGrid = 64;
   float border = 0;
   for (int i = 0; i < kGrid * kGrid; ++i) {

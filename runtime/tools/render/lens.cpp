@@ -107,7 +107,7 @@ Image developed(std::span<const ExposedPixel> pixels, int width, int height) {
     const glm::vec3 added = glare.light[i] / (1.0f + glare.light[i]);
     const glm::vec3 lit = film * (1 - kGlare) + (1.0f - film) * added;
     auto state = static_cast<uint32_t>(i);
-    float grain = -2;  // the sum of four uniform draws is nearly Gaussian
+    float grain = -2;  // sum of four uniform random numbers minus its mean of 2: nearly Gaussian
     for (int draw = 0; draw < 4; ++draw) grain += chance(state);
     for (int channel = 0; channel < 3; ++channel) {
       const float value = encodedSrgb(std::clamp(lit[channel], 0.0f, 1.0f));

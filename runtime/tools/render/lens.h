@@ -10,7 +10,7 @@ namespace sgm {
 
 /// A pixel in the layout that shade.comp and compose.comp write: six half floats, two in each word. First red, green
 /// and blue of the tone-mapped film colour, linear, 0..1; then red, green and blue of the light itself, which may
-/// exceed that range.
+/// exceed 1.
 struct ExposedPixel {
   uint32_t film_red_green, film_blue_light_red, light_green_blue;
 };

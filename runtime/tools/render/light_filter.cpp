@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::array<float, 5> kSpline{1.0f / 16, 1.0f / 4, 3.0f / 8, 1.0f / 4, 1.0f / 16};  // B3 spline
 
-/// Weight with which the light at element b contributes to the filtered light at element a. It is large if both
-/// surfaces lie in one plane and have similar normals.
+/// Weight with which the light at element b contributes to the filtered light at element a. The weight is large if the
+/// surfaces at a and b lie in one plane and have similar normals.
 float kinship(const Guides& guides, size_t a, size_t b, float apart) {
   const glm::vec4 &pa = guides.positions[a], &pb = guides.positions[b];
   if (pb.w < 0) return 0;
@@ -22,8 +22,8 @@ float kinship(const Guides& guides, size_t a, size_t b, float apart) {
   return f8 * f4 * std::exp(-off);
 }
 
-/// Calls body(at, tell) for each element `at` with a surface. `tell` is a function that body may call with a function
-/// `add`: it calls add(neighbour, weight) for each element of the filter kernel around `at`.
+/// Calls body(at, tell) for the index `at` of each element that has a surface. `tell` is a function for the use of
+/// `body`: tell(add) calls add(neighbour, weight) for each element of the filter kernel around `at`.
 template <class Body>
 void overNeighbours(const Guides& guides, int step, float element, JobSystem& jobs, Body body) {
   parallelFor(jobs, guides.height, [&](size_t row) {
@@ -62,7 +62,8 @@ void filterSoft(std::vector<SoftLight>& light, const Guides& guides, float eleme
         near += weight * light[other].lie.x;
         weights += weight;
       });
-      // Only lie.x is a sampled mean and thus noisy. The other components are exact, and their sharp edges must stay.
+      // Filter only lie.x (the share of directions in which a surface is near): it is the mean of samples, and thus
+      // noisy. The other components are exact, and their sharp edges must stay.
       const glm::vec4 lie(near / weights, light[at].lie.y, light[at].lie.z, light[at].lie.w);
       next[at] = {sum.light / weights, sum.lean / weights, lie};
     });

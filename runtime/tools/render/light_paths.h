@@ -22,17 +22,18 @@ class LightPaths {
   /// Number of direct lights: 1 (the sun), or the number of lamps.
   uint32_t lights() const { return sky_ ? 1 : scene_.frame().counts.x; }
 
-  /// The light of light source `light` that falls on a place if nothing blocks it.
+  /// Returns the light that a place would receive from light source number `light` if nothing blocked it.
   vec3 lightOf(uint32_t light, const MetSurface& place) const {
     return sky_ ? sunOn(place.normal) : lampOn(place.position, place.normal, light);
   }
-  /// The share of the light of light source `light` that reaches a place, 0..1.
+  /// Returns the share, 0 to 1, of the light from light source number `light` that reaches a place and is not blocked.
   float openShare(uint32_t light, const MetSurface& place, UnitPoints& points) const {
     return sky_ ? sunShare(place, points) : lampShare(place, light, points);
   }
 
-  /// The light that arrives at `from` along a ray in `direction`, traced over at most `bounces` surfaces. distance: set
-  /// to the distance of the first hit, if there is one. mirrored: the ray is a visible reflection in a pane.
+  /// Returns the light that arrives at `from` from the direction `direction`, traced over at most `bounces` surfaces.
+  /// distance: receives the distance of the first hit, if there is a hit. mirrored: true: the ray is a visible
+  /// reflection in a pane.
   vec3 radiance(vec3 from, vec3 direction, UnitPoints& turns, int bounces, float* distance = nullptr,
                 bool mirrored = false) const;
 
@@ -41,13 +42,14 @@ class LightPaths {
   vec3 lampOn(vec3 p, vec3 n, uint32_t lamp) const;
   float sunShare(const MetSurface& place, UnitPoints& points) const;
   float lampShare(const MetSurface& place, uint32_t lamp, UnitPoints& points) const;
-  /// Direct light of the sun or all lamps on a place that is visible in a mirror: choosing one lamp at random would
-  /// cause noise.
+  /// Direct light of the sun, or of all lamps, on a place that is seen in a mirror. In contrast to lit(), which chooses
+  /// one lamp at random, this function adds up all lamps: noise would be visible in a mirror.
   vec3 litByAll(const MetSurface& place, UnitPoints& turns) const;
-  /// Direct light of the sun, or an estimate from one lamp, chosen with probability proportional to its unshadowed
-  /// light.
+  /// Direct light of the sun, or an estimate of the lamps' light from one random lamp. The probability of choosing a
+  /// lamp is proportional to its light without shadows.
   vec3 lit(const MetSurface& place, glm::vec2 turn) const;
-  /// The sky's radiance with fair-weather clouds: single clouds if the ray is a reflection, otherwise their mean share.
+  /// The sky's radiance with fair-weather clouds. A visible reflection (mirrored) shows single clouds; other rays get
+  /// the mean share of the sky that the clouds cover.
   vec3 skyIn(vec3 from, vec3 direction, bool mirrored) const;
 
   const TracedScene& scene_;

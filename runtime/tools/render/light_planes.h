@@ -1,5 +1,6 @@
 #pragma once
-// The light that arrives at the visible surface of each pixel, before its material reflects it.
+// The light that arrives at the visible surface of each pixel. How the surface's material reflects it is computed
+// later, by the shader.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -45,7 +46,7 @@ struct LightPlanes {
   std::vector<VapourLight> vapour;
   /// Geometric mean of the brightness of all visible surfaces, clouds excluded; 0 if none is visible.
   float brightness = 0;
-  float lit = 0;        ///< geometric mean of the light on the surfaces, as if all were white
+  float lit = 0;        ///< geometric mean of the light that falls on the surfaces, regardless of their colours
   float highlight = 0;  ///< 95th percentile of the surfaces' brightness; 0 if no surface is visible
 };
 

@@ -29,7 +29,7 @@ constexpr int kBounces = 2;         // number of bounces of an indirect ray; a c
 constexpr int kMirrorBounces = 2;   // number of bounces of a reflected ray
 constexpr int kMirrorRays = 4;      // number of rays for a mirroring pixel: a single ray would alias edges in the
                                     // mirror
-constexpr float kDirtReach = 0.9f;  // metres; surfaces with other surfaces nearer than this get dirty
+constexpr float kDirtReach = 0.9f;  // metres; a surface gets dirty where another surface is nearer than this
 
 /// Computes the light of single pixels in a traced scene.
 class LightTracer {
@@ -54,8 +54,8 @@ class LightTracer {
     float wet = 0;
     vec3 seen(0);
     if (scene_.isMirror(place.material)) seen = mirrored(place, x, y);
-    // At the rim of a pane, where its material blends with paint, the paint must mirror as little as the pane does.
-    // Otherwise only the sky would shine in the pane.
+    // At the rim of a pane, the pane's material blends with the paint of the frame. Such pixels get the pane's weak
+    // reflection and the view through the pane, even if paint is the first material.
     if (scene_.isClear(place.material) || scene_.isClear(place.second)) {
       const uint32_t pane = scene_.isClear(place.material) ? place.material : place.second;
       // For clear panes, `seen` is the sum of reflected and transmitted light, and the shader adds it unchanged.
@@ -105,12 +105,12 @@ class LightTracer {
     return light;
   }
 
-  /// The brightness of a place in the given light, if the material has a plain colour.
+  /// The brightness of a place in the given light. The material's plain colour is used, without the material's pattern.
   float brightness(const MetSurface& place, vec3 light) const {
     const vec3 colour = scene_.colourOf(place.material);
     if (paths_.isUnderSky()) return luminance(light * colour);
-    // Under lamps, dark materials such as lava count as brighter than they are, but not as bright as stone of albedo
-    // kStone, so that the exposure does not turn them into pale ones.
+    // Under lamps, a dark material such as lava counts as brighter than it is, but not as bright as stone of albedo
+    // kStone. Otherwise the exposure would rise until the dark material looks pale.
     constexpr float kStone = 0.3f;
     return luminance(light * colour) * std::sqrt(kStone / std::clamp(luminance(colour), 0.02f, kStone));
   }

@@ -59,7 +59,8 @@ Result<VkRenderPass> makeRenderPass(VulkanScope& scope) {
   return scope.renderPass(info);
 }
 
-/// Vertex input, topology and culling of a pipeline. A binding advances for each vertex or for each instance.
+/// Vertex input, topology and culling of a pipeline. The vertex buffer binding advances either with each vertex or with
+/// each instance.
 struct Drawn {
   VkVertexInputBindingDescription binding;
   std::array<VkVertexInputAttributeDescription, 6> attributes;
@@ -75,11 +76,11 @@ constexpr Drawn kTriangles{{0, sizeof(RenderVertex), VK_VERTEX_INPUT_RATE_VERTEX
                              {4, 0, VK_FORMAT_R32_UINT, offsetof(RenderVertex, second)},
                              {5, 0, VK_FORMAT_R32_SFLOAT, offsetof(RenderVertex, share)}}},
                            VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
-                           // Back faces are culled: a viewer in the void never sees them. Seen from outside, culling
-                           // makes a cave's near walls invisible, which opens the cave to view.
+                           // Back faces are culled: a viewer in the void never sees them. For a viewer outside, culling
+                           // hides the near walls of a cave, so that the inside of the cave is visible.
                            VK_CULL_MODE_BACK_BIT};
 
-/// Sprouts are drawn without culling, since both of their sides are visible.
+/// Sprouts (blades of grass and leaves) are drawn without culling, since both of their sides are visible.
 constexpr Drawn kSprouts{{0, sizeof(Sprout), VK_VERTEX_INPUT_RATE_INSTANCE},
                          {{{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Sprout, root)},
                            {1, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Sprout, normal)},

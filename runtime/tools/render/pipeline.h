@@ -16,7 +16,8 @@ struct SurfacePass {
   VulkanImage normals;  ///< RGBA16F
   VkRenderPass render_pass = VK_NULL_HANDLE;
   VkFramebuffer framebuffer = VK_NULL_HANDLE;
-  VkPipelineLayout layout = VK_NULL_HANDLE;  ///< push constants are FoliageConstants; `draw` uses only the matrix
+  VkPipelineLayout layout = VK_NULL_HANDLE;  ///< layout of the push constants: FoliageConstants; `draw` uses only the
+                                             ///< matrix
   VkPipeline draw = VK_NULL_HANDLE;
   VkPipeline foliage = VK_NULL_HANDLE;  ///< draws the ground under grass
   VkPipeline sprouts = VK_NULL_HANDLE;  ///< draws one blade or leaf for each instance
@@ -25,8 +26,9 @@ struct SurfacePass {
 /// The shader stages that read SurfacePass's push constants.
 inline constexpr VkShaderStageFlags kSurfaceStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-/// Second pass: shades the samples. The shader is compiled with only the patterns whose bits are set in `patterns`, and
-/// with the sky if the highest bit is set: compiling all patterns takes a driver seconds, those of one scene far less.
+/// The second pass, which shades the samples. Its compiled shader contains only the patterns whose bits are set in
+/// `patterns`, and the sky if the highest bit is set: compiling all patterns takes a driver seconds, compiling the
+/// patterns of one scene far less.
 struct ShadePipeline {
   uint32_t patterns = 0;
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;

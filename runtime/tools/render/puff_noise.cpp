@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSide = 64;       // samples along an edge of the precomputed noise tile
 constexpr int kPuffs = 4;       // puffs along an edge of the tile in the first octave
-constexpr float kWorld = 1024;  // metres, period after which the noise repeats
+constexpr float kWorld = 1024;  // period of the noise, in metres
 
 /// Three random numbers from a hash of three integers: pcg3d (Jarzynski and Olano, "Hash functions for GPU rendering").
 glm::vec3 random3(glm::uvec3 v) {
@@ -92,7 +92,7 @@ float puffHollows(glm::vec3 position, float period, float finest) {
     sum += kWeights[i] * tileAt(tile, position * (kSide / edge));
     weights += kWeights[i];
   }
-  // The mean has a small range: stretch it to 0..1.
+  // The weighted mean varies little: stretch its range to 0..1.
   return std::clamp((sum / weights - 0.30f) / 0.48f, 0.0f, 1.0f);
 }
 

@@ -29,7 +29,8 @@ void dropFront(const RTCFilterFunctionNArguments* at) {
 
 /// Embree's context for a shadow ray, extended by the data that the filter function needs.
 struct LightRay {
-  RTCIntersectContext context;  // must be first: Embree passes a pointer to the context only
+  RTCIntersectContext context;  // must be the first member: Embree passes only a pointer to this context, from which
+                                // the filter function gets the LightRay
   const RayCaster* mesh;
   std::span<const LetsLight> lets;
   glm::vec3 offset;
@@ -52,7 +53,7 @@ void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
     return;
   }
   constexpr float kSprig = 0.5f, kGap = 0.60f;  // kSprig: period of the noise in metres; where the noise exceeds kGap,
-                                                // there is a gap
+                                                // the foliage has a gap
   const glm::vec3 place =
       glm::vec3(ray.org_x, ray.org_y, ray.org_z) + ray.tfar * glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z);
   if (puffHollows(place + light.offset, kSprig, 0.1f) > kGap) at->valid[0] = 0;
@@ -112,7 +113,8 @@ Result<RayCaster> RayCaster::over(std::span<const RenderVertex> vertices, std::s
                                3 * sizeof(uint32_t), indices.size() / 3);
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(caster.scene_.get(), mesh);
-    // Without RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION, Embree ignores filter functions that are set for a single ray.
+    // The flag RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION is needed because shadow rays have a filter function of their
+    // own: without the flag, Embree ignores filter functions that are set for a single ray.
     const RTCSceneFlags closed = gaps == Gaps::closed ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
     rtcSetSceneFlags(caster.scene_.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION | closed));
   }

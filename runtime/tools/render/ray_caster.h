@@ -14,7 +14,8 @@ struct RTCSceneTy;
 
 namespace sgm {
 
-/// tiny: rays may slip between two triangles that share an edge, which is faster. closed: they never do.
+/// Whether a ray may slip through between two triangles that share an edge. tiny: rarely, but casting is faster.
+/// closed: never.
 enum class Gaps { tiny, closed };
 
 /// Whether a material transmits light: in_spots for leaves, always for window panes and glowing lamps.
@@ -39,8 +40,8 @@ class RayCaster {
   std::optional<RayHit> cast(glm::vec3 from, glm::vec3 direction, float max_distance) const;
   /// Like cast(), but ignores hits on the back of a triangle: a viewer in the void does not see them.
   std::optional<RayHit> castFronts(glm::vec3 from, glm::vec3 direction, float max_distance) const;
-  /// Makes isFree() let light pass through materials that transmit it. lets: indexed by material; the caller keeps it
-  /// alive. offset: Frame::pattern_offset, metres, for the gaps between leaves.
+  /// Makes isFree() let light pass through materials that transmit it. lets: an element for each material; the caller
+  /// must keep the array alive. offset: Frame::pattern_offset, metres, for the gaps between leaves.
   void loosen(std::span<const LetsLight> lets, glm::vec3 offset);
   /// Whether light from the end of the ray reaches its start. Only triangles whose front faces the light block it, and
   /// only if their material does not transmit light (see loosen()).

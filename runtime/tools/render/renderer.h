@@ -42,7 +42,7 @@ class Renderer {
  private:
   struct Kept;
 
-  /// Does the work of render(), which catches its std::bad_alloc.
+  /// Does the work of render(). May throw std::bad_alloc, which render() catches.
   Result<Image> draw(const RenderScene& scene) const;
 
   Renderer(std::unique_ptr<VulkanDevice> device, std::unique_ptr<JobSystem> jobs);

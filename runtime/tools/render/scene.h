@@ -71,7 +71,7 @@ struct RenderScene {
   Int3 origin;
   RenderCamera camera;
   /// The lamp on the explorer's helmet, a little above and beside the camera, which shines in the camera's direction.
-  /// Its position is ignored.
+  /// RenderLamp::position is ignored.
   RenderLamp headlamp;
   std::vector<RenderLamp> lamps;  ///< fixed lamps in addition to the headlamp, at most kMaxLamps
   float ambient = 0.012f;         ///< strength of the ambient light, 0..1

@@ -30,8 +30,8 @@ struct MetSurface {
 /// Whether a material transmits light.
 LetsLight letsLight(const RenderMaterial& material);
 
-/// Start of the ray that continues behind a window pane: just inside the pane, whose far side is hit from its back and
-/// thus ignored.
+/// Start of the ray that continues behind a window pane. It lies just inside the pane: the ray then hits the back of
+/// the pane's far side, and hits on backs are ignored.
 inline vec3 behind(const MetSurface& pane, vec3 direction) { return pane.position + 2e-3f * direction; }
 
 /// The mesh, the materials and the camera of a picture, for ray tracing. Keeps references to its arguments.
@@ -55,7 +55,7 @@ class TracedScene {
     return scene_.materials[std::min<size_t>(index, scene_.materials.size() - 1)];
   }
   vec3 colourOf(uint32_t index) const { return material(index).colour; }
-  /// Whether a material mirrors: water, glass panes and very smooth paint do.
+  /// Whether a material reflects like a mirror: true for water, glass panes and very smooth paint.
   bool isMirror(uint32_t index) const;
   /// Whether a material is a clear window pane, which shows the scene behind it; see kClearPane.
   bool isClear(uint32_t index) const;

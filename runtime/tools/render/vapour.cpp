@@ -22,9 +22,9 @@ constexpr int kCoarser = 2;  // spacing of the light lattice in cells of the den
 constexpr float kStep = 0.5f, kOpaque = 0.004f;
 constexpr float kForward = 0.82f;  // mean cosine of the scattering angle of droplets (g)
 constexpr int kOctaves = 7;
-constexpr float kKept = 0.82f;  // factor of the sum over octaves, so that a cloud emits no more light than it receives
-/// Where the smoothed outline is below kThinnest, there is no cloud. Noise erodes the boundary by up to kErosion;
-/// density rises over the width kEdge.
+constexpr float kKept = 0.82f;  // scales the sum over octaves, so that a cloud emits no more light than it receives
+/// kThinnest: there is no cloud where the smoothed outline is below this value. kErosion: noise erodes the boundary by
+/// up to this amount. kEdge: width over which the density rises at the boundary.
 constexpr float kThinnest = 0.05f, kErosion = 0.92f, kEdge = 0.24f;
 // Maximum of the noise in creases between puffs: higher values would look like dark dots where three puffs meet.
 constexpr float kDeepest = 0.78f;
@@ -135,7 +135,8 @@ void Vapour::light(JobSystem& jobs) {
     for (int y = 0; y < size.y; ++y) {
       for (int x = 0; x < size.x; ++x) {
         const glm::ivec3 point = glm::ivec3(x, y, z) * kCoarser;
-        // Light is interpolated between lattice points, so only points near cells with density are needed.
+        // `seen`: there is density near this lattice point. Light is interpolated between lattice points, so it is
+        // needed only at points near density.
         bool seen = false;
         for (int i = 0; i < 8 && !seen; ++i) {
           const glm::ivec3 away = (glm::ivec3(i & 1, i >> 1 & 1, i >> 2) * 2 - 1) * kCoarser;
@@ -190,11 +191,12 @@ glm::vec4 Vapour::litAt(vec3 place) const {
 /// Radiance that the cloud at a place scatters into a ray. Sunlight is a sum over octaves of scattering; the first
 /// octave is single scattering. Light that is scattered repeatedly goes farther and loses its direction. Each further
 /// octave therefore has smaller extinction and a smaller mean cosine than the previous one (Wrenninge, Kulla and
-/// Lundqvist 2013, "Oz: the great and volumetric"). Its energy is the part of the previous octave's energy that does
-/// not escape from the cloud.
+/// Lundqvist 2013, "Oz: the great and volumetric"). The energy of an octave is the part of the previous octave's energy
+/// that does not escape from the cloud.
 vec3 Vapour::sourceAt(vec3 place, float cosine, float footprint) const {
   const glm::vec4 lit = litAt(place);
-  // Close to the place, sample the puffs towards the sun directly: they are smaller than the light lattice resolves.
+  // Close to the place, sample the density of the puffs towards the sun directly: the light lattice is too coarse to
+  // resolve the puffs.
   constexpr std::array kNear{0.6f, 1.9f, 4.0f}, kLong{1.2f, 1.5f, 2.8f};
   float near = 0;
   for (size_t i = 0; i < kNear.size(); ++i)

@@ -48,7 +48,8 @@ class Vapour {
   /// Properties of a cloud material, for example of dense water droplets or of thin cirrus.
   struct Stuff {
     glm::vec3 colour;
-    float density, puffs;  ///< each 0..1: factor of the extinction, and strength of the noise at the boundary
+    /// density: factor of the extinction; puffs: strength of the noise at the cloud's boundary; each 0..1
+    float density, puffs;
   };
 
   Vapour(const RenderScene& scene, const Frame& frame, VapourDensity density);

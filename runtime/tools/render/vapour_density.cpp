@@ -14,12 +14,14 @@ namespace {
 
 constexpr double kMaxPoints = double{1 << 25};
 constexpr int kMargin = 6;                  // number of empty lattice points around the mesh, which smoothing needs
-constexpr int kSubColumns = 2;              // number of rays along each side of a cell's footprint
+constexpr int kSubColumns = 2;              // number of rays along each horizontal edge of a lattice cell; their square
+                                            // is cast for each column of cells
 constexpr std::array kSoftenings{1, 2, 3};  // radii of the successive smoothing passes, in cells
 /// Mean optical depth of a cloud: its middle is nearly opaque and its base is grey. It is the same for clouds of all
 /// sizes, so that a small cloud beside a tower looks as dense as a large one far away.
 constexpr float kMeanDepth = 20;
-constexpr float kLongestChord = 600;  // metres; limit of a cloud's mean chord, reached in endless cloud decks
+constexpr float kLongestChord = 600;  // metres; upper limit of the mean chord length of the clouds; endless cloud decks
+                                      // exceed it
 /// Values of the smoothed outline at which a cloud begins (kThin, a little outside the mesh) and has full density
 /// (kDense).
 constexpr float kThin = 0.28f, kDense = 0.85f;
@@ -63,11 +65,12 @@ VapourDensity::VapourDensity(const RayCaster& outline, JobSystem& jobs) : lattic
   markBricks(jobs);
 }
 
-// Casts rays upwards to find the intervals of each column of cells that are inside the mesh. If the region's border has
-// cut the mesh open, an interval ends at the end of the mesh's bounding box.
+// Casts upward rays through each column of cells, to find the intervals that are inside the mesh. If the region's
+// border has cut the mesh open, an interval without an end ends at the mesh's bounding box.
 void VapourDensity::fillColumns(const RayCaster& outline, JobSystem& jobs) {
   const float high = outline.hi().y - outline.lo().y, step = 1e-5f * (high + lattice_.spacing);
-  // One job handles a whole slice of bricks, since it also sets the bricks' materials without a lock.
+  // One job handles a whole slice of bricks. So no other job writes the materials of these bricks, and no lock is
+  // needed.
   parallelFor(jobs, size_t(brick_count_.z), [&](size_t slice) {
     std::vector<float> column(static_cast<size_t>(lattice_.size.y));
     const int first = int(slice) * kBrick;
@@ -86,8 +89,8 @@ void VapourDensity::fillColumns(const RayCaster& outline, JobSystem& jobs) {
           }
         };
         for (int sub = 0; sub < kSubColumns * kSubColumns; ++sub) {
-          // The odd offset keeps rays off the planes of the grid on which the mesh was sampled, where they would hit
-          // edges.
+          // The rays are shifted by an odd fraction of a cell (0.517). Otherwise, they would lie in the planes of the
+          // grid on which the mesh was sampled, and hit edges of its triangles.
           const glm::vec2 cell(float(sub % kSubColumns), float(sub / kSubColumns));
           const glm::vec2 off = (cell + 0.517f) / float(kSubColumns) - 0.5f;
           const float from_x = lattice_.corner.x + lattice_.spacing * (float(x) + off.x);
@@ -140,7 +143,7 @@ void VapourDensity::soften(int reach, JobSystem& jobs) {
   }
 }
 
-// Gives bricks without a material, into which smoothing has spread density, the material of a neighbouring brick.
+// Smoothing has spread density into bricks that have no material yet: each gets the material of a neighbouring brick.
 void VapourDensity::markBricks(JobSystem& jobs) {
   const std::vector<uint16_t> within = bricks_;
   parallelFor(jobs, size_t(brick_count_.z), [&](size_t slice) {

@@ -11,7 +11,7 @@
 
 namespace sgm::cli {
 
-/// Not thread-safe.
+/// A video file that is being written. Not thread-safe.
 class VideoFile {
  public:
   struct Format {

@@ -32,7 +32,8 @@ struct VolumeScene {
   glm::vec3 sun_light{26.0f, 24.2f, 21.5f};       ///< irradiance on a surface that faces the sun
   glm::vec3 sky_light{0.34f, 0.45f, 0.64f};       ///< radiance from the sky above
   glm::vec3 ground_light{0.10f, 0.11f, 0.125f};   ///< radiance from the ground below
-  float fog_distance = 10000;                     ///< same as RenderScene::fog_distance
+  float fog_distance = 10000;                     ///< metres; distance over which haze extinguishes about two thirds of
+                                                  ///< the light (as RenderScene::fog_distance)
   float exposure = 0.85f;
   int supersample = 2;  ///< rays along each side of a pixel, 1..3
 };

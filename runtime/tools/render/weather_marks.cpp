@@ -9,8 +9,10 @@ namespace {
 
 constexpr float kUnderLedge = 2.4f;      // metres, length of the streaks that rain leaves below a ledge
 constexpr float kSplash = 1.5f;          // metres, height up to which rain splashes a wall and damp rises in it
-constexpr float kWiderThanLedge = 0.4f;  // metres, minimum width of ground before a wall from which rain splashes
-constexpr float kLedgeStep = 0.25f;      // metres, maximum height difference of the ground within kWiderThanLedge
+constexpr float kWiderThanLedge = 0.4f;  // metres; rain splashes a wall only if the flat ground before it is wider than
+                                         // this
+constexpr float kLedgeStep = 0.25f;      // metres; the ground before the wall is flat if its height differs by less
+                                         // than this
 
 }  // namespace
 

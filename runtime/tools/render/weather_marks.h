@@ -13,7 +13,8 @@ float depthOf(const TracedScene& scene, const MetSurface& place, UnitPoints& poi
 /// Wetness of a surface just above water, 0..1; it decreases with the height above the water.
 float wetness(const TracedScene& scene, const MetSurface& place);
 
-/// How much a ledge above keeps rain off a wall, 0..1: 1 just below the ledge.
+/// How much a ledge above a place on a wall keeps rain off the place, 0..1: 1 just below the ledge, 0 if there is no
+/// ledge.
 float ledgeOver(const TracedScene& scene, const MetSurface& place);
 
 /// How near a place on a wall is to the wall's foot, 0..1. The ground at the foot must be flat and wider than a ledge.

@@ -10,7 +10,8 @@ foreach(module http service_judge service_watch service_ports service)
 endforeach()
 target_link_libraries(sgm_service_library PUBLIC sgm PRIVATE prometheus-cpp::core Threads::Threads)
 if(NOT SGM_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
-  # libsgm hides the objects of base, so this library has its own copy of those that it uses.
+  # The shared library libsgm does not export the symbols of the module base, so this library links its own copy of the
+  # objects that it needs from there.
   target_link_libraries(sgm_service_library PRIVATE sgm_base)
   target_link_options(sgm_service_library PRIVATE LINKER:--version-script=${CMAKE_CURRENT_SOURCE_DIR}/exports.map
     ${SGM_NO_UNDEFINED})

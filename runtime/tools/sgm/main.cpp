@@ -13,8 +13,9 @@ namespace {
 
 using sgm::cli::Exit;
 
-/// Signal handler. Removes unfinished files, then ends the process by the same signal, so that a shell reports 128 +
-/// the signal. Defers this while work must not be interrupted.
+/// Signal handler. Usually removes unfinished files, and then ends the process by the same signal, so that a shell
+/// reports 128 + the signal. While some work must not be interrupted, the handler only records the signal, which then
+/// ends the process after that work.
 void endBy(int signal) {
   if (sgm::cli::ending_signals.waits(signal)) return;
   sgm::cli::unfinished_files.remove();
@@ -25,8 +26,8 @@ void endBy(int signal) {
 void handleSignals() {
   // Ignore SIGXFSZ: exceeding the file size limit then fails the write, and the writer removes its file.
   std::signal(SIGXFSZ, SIG_IGN);
-  // If the parent process ignores SIGCHLD, so would this one, and the system would discard the exit status of child
-  // processes.
+  // If the parent process ignores SIGCHLD, this process inherits that setting. The system would then discard the exit
+  // status of child processes.
   std::signal(SIGCHLD, SIG_DFL);
   for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM}) {
     // Signals that the parent process ignores (nohup, a background job of a script) stay ignored.

@@ -30,9 +30,9 @@ Exit exitOf(Code code);
 Exit reportError(Exit status, std::string_view message);
 inline Exit reportError(const Error& error) { return reportError(exitOf(error.code), error.message); }
 
-/// Shows progress on stderr. On a terminal it is a bar, which is erased at the end; after some seconds it shows an
-/// estimate of the remaining time. If stderr is not a terminal, it is one line a minute, for logs. While the total
-/// amount of work is unknown, the elapsed time is shown instead.
+/// Shows progress on stderr. On a terminal, a bar is shown, which is erased at the end; after some seconds, the bar
+/// shows an estimate of the remaining time. If stderr is not a terminal, one line a minute is printed, for logs. While
+/// the total amount of work is unknown, the elapsed time is shown instead.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string_view what);

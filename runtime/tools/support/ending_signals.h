@@ -1,5 +1,5 @@
 #pragma once
-// Defers signals that end the process while work is done that they must not interrupt.
+// Defers signals that would end the process, as long as critical work is done that must not be interrupted.
 
 #include <unistd.h>
 
@@ -27,21 +27,22 @@ class EndingSignals {
 
  private:
   friend class Uninterrupted;
-  // Values of state_: signals are not deferred, are deferred, or a handler is ending the process. A positive value is
-  // the number of a deferred signal.
+  // Values of state_. kOpen: signals are not deferred. kHeld: signals are deferred, and none has arrived yet. kEnding:
+  // a signal handler is ending the process. A positive value is the number of the deferred signal.
   static constexpr int kOpen = 0, kHeld = -1, kEnding = -2;
 
   std::atomic<int> state_{kOpen};
 };
 
-/// Defers signals that end the process, during its own lifetime. signals: must outlive this object; null to defer
-/// nothing, if no signal handler calls waits(). Only one Uninterrupted may exist at a time for each EndingSignals.
+/// As long as an object of this class exists, signals that would end the process are deferred. signals: must outlive
+/// the object; null if no signal handler calls waits(): then nothing is deferred. Only one Uninterrupted may exist at a
+/// time for each EndingSignals.
 class Uninterrupted {
  public:
   explicit Uninterrupted(EndingSignals* signals) : signals_(signals) {
     if (signals_ == nullptr) return;
     int open = EndingSignals::kOpen;
-    // The signal handler is ending the process in another thread: wait until it has.
+    // In another thread, the signal handler is already ending the process: wait for the end.
     if (!signals_->state_.compare_exchange_strong(open, EndingSignals::kHeld))
       for (;;) pause();
   }

@@ -15,7 +15,8 @@
 namespace sgm::cli {
 namespace {
 
-// Maximum distance, in cells, of a triangle from the surface of the rule use to which it belongs.
+// A triangle counts as part of a use's own surface if its distance from that surface is below this, in cells. A use is
+// one application of a rule.
 constexpr float kNearOwnSurface = 0.3f;
 constexpr size_t kMaxTargets = 12;      // maximum number of rule uses that are examined
 constexpr size_t kFewestTriangles = 6;  // minimum number of triangles for a use to be recognizable in a picture
@@ -49,11 +50,11 @@ struct DrawnRegion {
   }
 };
 
-/// A use of a rule, and the triangles that show it.
+/// A use of a rule, and the triangles of the drawn mesh that show its surface.
 struct ShownUse {
   const RuleUse* use = nullptr;
   FrameTarget target;
-  bool hollow = false;  ///< true if the use's surface encloses a void, as that of a room does
+  bool hollow = false;  ///< true if the use's surface encloses a void, as the walls of a room do
 };
 
 std::vector<uint32_t> trianglesIn(const DrawnRegion& drawn, const IntBox& bounds) {
@@ -73,8 +74,8 @@ struct OwnSurface {
   bool hollow = false;  ///< true if the void is inside the use's shapes, false if it is outside them
 };
 
-/// Selects the triangles that lie on the use's own surface, within a fraction of a cell. If there are hardly any, an
-/// enclosing rule has displaced the surface: then all given triangles are selected.
+/// Selects those of the given triangles that lie on the use's own surface, within a fraction of a cell. Fewer than
+/// kFewestTriangles mean that an enclosing rule has displaced the surface: then all given triangles are selected.
 Result<OwnSurface> ownOf(const DrawnRegion& drawn, const RuleUse& use, int level,
                          const std::vector<uint32_t>& triangles) {
   const float cell = static_cast<float>(metres(drawn.region.cell));

@@ -22,8 +22,8 @@ constexpr size_t kMaxNotes = 10;
 constexpr const char* kEndless = "the grammar's world is endless: choose a part with --region x0,y0,z0:x1,y1,z1";
 constexpr uint64_t kChosenChunks = 4096;  // maximum number of chunks if cell size and region are chosen automatically
 constexpr int32_t kFinestSeen = kUnitsPerMetre / 100;  // units, minimum cell size that a view may request
-// Minimum distance from the camera, in units, at which the view determines the cell size. Nearer surfaces may look
-// coarser.
+// Surfaces nearer to the camera than this distance, in units, do not make the cells smaller, so they may look coarser
+// than the view requests.
 constexpr double kNearestSeen = kUnitsPerMetre;
 
 RegionResult failure(Exit status) { return {std::nullopt, status}; }
@@ -33,7 +33,7 @@ struct ChosenWorld {
   std::optional<IntBox> region;  ///< the region to mesh; nullopt if RegionPlan::choose still has to choose it
 };
 
-/// The settings of the world and the region, as far as the options determine them.
+/// Returns the settings of the world, and its region, as far as the options determine them.
 Result<ChosenWorld> chooseWorld(const std::shared_ptr<const Program>& program, const WorldOptions& options,
                                 const RegionPlan& plan) {
   ChosenWorld chosen;
@@ -59,8 +59,9 @@ Result<ChosenWorld> chooseWorld(const std::shared_ptr<const Program>& program, c
   return chosen;
 }
 
-/// If the options determine no region, calls plan.choose. If they also determine no cell size, asks plan.cell, or else
-/// chooses a size that fits the region.
+/// Completes the settings that the options leave open. Without a region, plan.choose chooses it. If the options then
+/// give no cell size either, plan.cell gives it; if plan.cell is empty or returns 0, the cell size follows from the
+/// size of the region.
 Result<void> settleRegion(ChosenWorld& chosen, const WorldOptions& options, const RegionPlan& plan) {
   if (chosen.region) return {};
   const Result<IntBox> region = plan.choose(WorldField(chosen.settings, std::pmr::new_delete_resource()));

@@ -28,13 +28,14 @@ struct Region {
   std::string backend, device;
   double seconds = 0;                     ///< wall-clock time from the compiled grammar to the finished mesh
   std::optional<TexturedRegion> texture;  ///< set if RegionPlan::texture is true
-  std::optional<Unwrapped> blends;        ///< set if only RegionPlan::blends is true
-  /// Set with sharp features: the closed mesh. In meshed.mesh, a vertex on a crease is split, with one copy for each
-  /// side.
+  std::optional<Unwrapped> blends;        ///< set if RegionPlan::blends is true and RegionPlan::texture is false
+  /// Set if the mesh has sharp features: the closed mesh, before vertices were split. In meshed.mesh, each vertex on a
+  /// crease is split into one copy for each side of the crease.
   std::optional<WorldMesh> unsplit;
   std::string empty_because;                ///< if the mesh has no triangle: a probable reason and a remedy
   std::vector<DeriveNote> notes;            ///< shapes that derivation left out, and why
-  std::vector<ThinPart> thin;               ///< parts too thin for the cells, which the mesh may lack
+  std::vector<ThinPart> thin;               ///< parts that are too thin for the size of the cells, so that the mesh may
+                                            ///< lack them
   std::shared_ptr<const WorldField> world;  ///< the meshed world, if RegionPlan::keep_world is true
 
   uint64_t samples() const { return meshed.chunks * kChunkCells * kChunkCells * kChunkCells; }
@@ -73,8 +74,9 @@ struct RegionResult {
 /// Settings and callbacks that control how a region is chosen and meshed. Callbacks may be empty.
 struct RegionPlan {
   std::string doing = "meshing";  ///< text in front of the progress bar
-  bool quiet = false;             ///< whether no progress bar is shown
-  bool anchors = true;            ///< whether Region::anchors is filled, which derives the whole region
+  bool quiet = false;             ///< true: no progress bar is shown
+  bool anchors = true;            ///< whether Region::anchors is filled; this requires the derivation of the whole
+                                  ///< region
   bool notes = true;              ///< whether Region::notes and Region::thin are filled, which takes time
   /// Called on any thread during the work; if it returns false, the work is cancelled with Code::cancelled. May be
   /// empty.
@@ -90,8 +92,8 @@ struct RegionPlan {
                       ///< completely
   /// If set, cells are made smaller where they would look too large in this view.
   std::optional<PictureView> view;
-  /// Called after `choose`, unless the options determine the cell size: returns the edge of a cell in units. If this
-  /// callback is empty or returns 0, the size of the region determines the cell size.
+  /// Returns the edge of a cell in units. Called after `choose`, but not if the options determine the cell size. If
+  /// this callback is empty or returns 0, the size of the region determines the cell size.
   std::function<int32_t()> cell;
   /// Called when the region has been meshed, to do more with its world.
   std::function<Result<void>(const WorldField& world, Backend& backend, JobSystem& jobs, const Region& region)> after;

@@ -135,7 +135,7 @@ void addWires(const Region& region, const RenderCamera& camera, RegionScene& dra
   for (const auto& [a, b] : edges) {
     const glm::vec3 ends[] = {place(a), place(b)};
     const glm::vec3 side = glm::cross(ends[1] - ends[0], camera.position - ends[0]);
-    if (glm::length(side) == 0) continue;  // the camera looks along the edge, which is not visible
+    if (glm::length(side) == 0) continue;  // the camera looks along the edge, so the edge is not visible
     const float seen = glm::length(side) / glm::distance(camera.position, ends[0]);
     const auto first = static_cast<uint32_t>(drawn.vertices.size());
     for (const glm::vec3& end : ends) {

@@ -18,9 +18,9 @@ struct RegionPicture {
   Image image;
   View view;
   Light light = Light::sun;
-  std::optional<double> daylight;   ///< measured share of visible sky; nullopt if `light` was not chosen by measuring
-                                    ///< it
-  std::optional<FramedUse> framed;  ///< the rule use that the picture shows, with --frame
+  std::optional<double> daylight;   ///< measured share of visible sky; nullopt if `light` was chosen without measuring
+                                    ///< the sky
+  std::optional<FramedUse> framed;  ///< with --frame: the use of a rule that the picture shows
 };
 
 /// A region ready to be drawn, with its camera and light.
@@ -28,12 +28,13 @@ struct RegionScene {
   std::vector<RenderVertex> vertices;
   std::vector<uint32_t> indices;
   std::vector<RenderMaterial> materials;
-  RenderScene scene;  ///< refers to the three members above, so this struct can be moved, but not copied
+  RenderScene scene;  ///< points into the heap buffers of the three vectors above: a move of this struct keeps these
+                      ///< buffers, a copy would not
   View view;
   Light light = Light::sun;
-  std::optional<double> daylight;   ///< measured share of visible sky; nullopt if `light` was not chosen by measuring
-                                    ///< it
-  std::optional<FramedUse> framed;  ///< the rule use that the picture shows, with --frame
+  std::optional<double> daylight;   ///< measured share of visible sky; nullopt if `light` was chosen without measuring
+                                    ///< the sky
+  std::optional<FramedUse> framed;  ///< with --frame: the use of a rule that the picture shows
 
   RegionScene() = default;
   RegionScene(RegionScene&&) = default;

@@ -75,7 +75,7 @@ Result<std::string> askSandbox(const SandboxOptions& options) {
   settings.sandbox.emplace().cpu_seconds = options.seconds;
   platform::RunSettings run;
   run.time = std::chrono::ceil<std::chrono::milliseconds>(std::chrono::duration<double>(options.seconds));
-  // Write buffered output now: otherwise it would appear after the messages of the process.
+  // Write this process's buffered output now: otherwise it would appear after the messages of the child process.
   std::fflush(nullptr);
   Result<ProcessOutput> said = platform::runProcess(settings, run);
   if (!said) return said.error();
@@ -94,7 +94,8 @@ Result<std::string> askSandbox(const SandboxOptions& options) {
 }
 
 Exit answerFromSandbox(const SandboxOptions& options, const std::function<Result<std::string>()>& work) {
-  // The limit is set only now: if there were no memory for loading libraries, the process would end without an answer.
+  // Set the memory limit only now, after the libraries are loaded. If the limit prevented loading them, the process
+  // would end without an answer.
   platform::ProcessLimits limits;
   limits.memory_bytes = options.memory << 20;
   platform::limitThisProcess(limits);

@@ -45,14 +45,14 @@ Result<std::optional<Int3>> nearestAnchor(const WorldField& world, std::string_v
   // Search small cubes first: a large cube may contain a very large number of cells.
   for (const int64_t metres : {16, 32, 64, 128, 256, 512}) {
     const Result<std::vector<Anchor>> anchors = world.anchors(cube(metres));
-    if (!anchors && nearest) break;  // use the anchor found in a smaller cube
+    if (!anchors && nearest) break;  // this cube cannot be searched: use the anchor found in a smaller cube
     if (!anchors) return anchors.error();
     for (const Anchor& anchor : *anchors) {
       if (!isWanted(*world.settings().program, anchor, wanted)) continue;
       if (!nearest || squareOf(anchor.frame.origin) < squareOf(*nearest)) nearest = anchor.frame.origin;
     }
-    // An anchor in a corner of this cube may be farther from the origin than one just outside a face: then search the
-    // next cube as well.
+    // An anchor in a corner of this cube may be farther from the origin than another anchor just outside a face of the
+    // cube. In this case, search the next cube as well.
     const double units = static_cast<double>(metres * kUnitsPerMetre);
     if (nearest && squareOf(*nearest) <= units * units) break;
   }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kTile = 32;          // columns along an edge of a tile; one field program is compiled for each tile
 constexpr int kBrick = 8;          // samples along an edge of a brick, the unit of one evaluation call
-constexpr float kDeep = 2;         // in steps, limit of the depth of a sample inside the void or solid that is drawn
+constexpr float kDeep = 2;         // in sample spacings; field values are clamped to -kDeep..kDeep
 constexpr float kPassable = 1;     // metres, minimum height of an interval through which a person can pass
 constexpr float kRockBetween = 1;  // metres, minimum thickness of the rock between two passages that are both drawn
 
@@ -26,7 +26,8 @@ class TileFill {
 
   void fill(const ProgramView& view) { fillPart(view, {}, size_, 0); }
 
-  /// The field's value at a sample, in steps, clamped to -kDeep..kDeep; negative in the solid.
+  /// The field's value at a sample, in multiples of the sample spacing, clamped to -kDeep..kDeep; negative in the
+  /// solid.
   float at(int x, int y, int z) const { return values_[index(x, y, z)]; }
 
  private:
@@ -75,8 +76,8 @@ class TileFill {
       }
     }
     bestKernels().samples(view, {x_.data(), y_.data(), z_.data(), points}, evaluation_, q_.data());
-    // Values are integers, and a sample exactly on the surface (0) counts as void, as in meshes: the offset makes it
-    // positive.
+    // Field values are integers. A sample exactly on the surface (value 0) must count as void, as in meshes, so an
+    // offset makes its value positive.
     const float steps = 1 / (view.q_scale * static_cast<float>(step_));
     points = 0;
     for (int y = 0; y < count[1]; ++y)
@@ -96,8 +97,8 @@ class TileFill {
   std::array<int32_t, size_t{kBrick} * kBrick * kBrick> x_{}, y_{}, z_{}, q_{};
 };
 
-/// The intervals of one column in the subject (the void or the solid that is drawn), and the column's values for a
-/// plan.
+/// The intervals of one column in the subject (the void or the solid that is drawn), and what a plan (a view from
+/// above) shows of the column.
 struct Column {
   std::vector<Stretch> stretches;
   uint32_t shown = kNone;
@@ -106,7 +107,7 @@ struct Column {
 };
 
 /// Finds the intervals of the subject in one column. value(i): the field at sample i, counted from the bottom, in
-/// steps; positive inside the subject.
+/// multiples of the sample spacing; positive inside the subject.
 template <class Value>
 Column readColumn(int samples, float bottom, float step, const Value& value) {
   Column column;

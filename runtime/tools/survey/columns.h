@@ -27,11 +27,12 @@ struct Columns {
   Subject subject = Subject::hollow;
   IntBox extent;     ///< box of the samples, units; the first samples are at lo, the last ones at hi
   int32_t step = 0;  ///< distance between neighbouring samples along each axis, units
-  /// For each column, its largest depth, in steps, inside the void or solid that is drawn; at most 2; negative if the
-  /// column does not meet it.
+  /// For each column, the depth of the sample that lies deepest inside the subject (the void or the solid that is
+  /// drawn): about the sample's distance from the surface, in steps; at most 2. Negative if no sample of the column is
+  /// inside the subject.
   Grid widest;
-  /// For each column, the largest depth, in steps, inside the passages below the shown interval that enough rock
-  /// separates from it; negative if there are none.
+  /// Like `widest`, but only for passages below the shown interval. A passage counts if at least one metre of rock lies
+  /// between it and the shown interval. Negative if the column has no such passage.
   Grid under;
   /// For each column, the index of its first interval in `stretches`. One more element at the end: the number of
   /// intervals.

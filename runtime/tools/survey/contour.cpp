@@ -119,7 +119,8 @@ float Grid::between(Point p) const {
 std::vector<Line> contours(const Grid& grid, float level) { return Marcher(grid, level).lines(); }
 
 std::vector<Line> areasAbove(const Grid& grid, float level) {
-  // Surround the grid by much lower values. They close the rings just outside the grid's border.
+  // Surround the grid by much lower values, so that every contour becomes a closed ring. Contours that leave the grid
+  // are closed just outside its border.
   Grid framed(grid.width + 2, grid.height + 2, level - 1e6f);
   for (int y = 0; y < grid.height; ++y)
     for (int x = 0; x < grid.width; ++x) framed.at(x + 1, y + 1) = grid.at(x, y);

@@ -42,7 +42,8 @@ std::vector<Line> areasAbove(const Grid& grid, float level);
 /// stays closed.
 Line smoothed(const Line& line);
 
-/// The longest parts of a line in which all points satisfy `wanted`.
+/// Splits a line at the points that do not satisfy `wanted`: returns the parts in between that have at least two
+/// points.
 template <class Wanted>
 std::vector<Line> partsOf(const Line& line, const Wanted& wanted) {
   std::vector<Line> parts;

@@ -34,7 +34,7 @@ struct Mark {
   std::string text;            ///< for lettering: the text that the lines spell
 };
 
-/// A white sheet with marks, painted in this order.
+/// A white sheet with marks. The marks are painted in the order of the list, so later marks lie on top.
 struct Drawing {
   int width = 0, height = 0;
   std::vector<Mark> marks;

@@ -17,7 +17,7 @@ constexpr double kLetters = 8, kSmall = 7, kGap = 5;
 // pixels: minimum distance between two labels, and between two labels with the same height
 constexpr double kBetweenLabels = 110, kBetweenLikeLabels = 240;
 constexpr size_t kMaxLabels = 24;
-// metres, minimum length of the region's border within a passage for the passage to count as continuing
+// metres; a passage counts as continuing beyond the region if at least this length of the region's border lies in it
 constexpr double kLeastLead = 1.5;
 
 /// Approximate distance of each grid point to the nearest wall, in steps, for placing labels.

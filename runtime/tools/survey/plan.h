@@ -42,7 +42,8 @@ struct Placement {
 /// Rectangles of the sheet that labels occupy, so that labels do not overlap.
 class Lettered {
  public:
-  /// Occupies the rectangle with this centre and size, unless it overlaps an occupied one. Returns whether it was free.
+  /// Marks the rectangle with this centre and size as occupied, and returns true. If it overlaps an occupied rectangle,
+  /// changes nothing and returns false.
   bool take(Point middle, double width, double height);
 
  private:
@@ -54,17 +55,18 @@ class Lettered {
 
 /// Measures of a plan. Lengths are in metres.
 struct PlanFigures {
-  double interval = 0;             ///< height difference between neighbouring contours; 0 without contours
-  double area = 0;                 ///< area of the drawn void or solid, seen from above, square metres
-  double lowest = 0, highest = 0;  ///< lowest and highest floor of a hollow, or top of a solid
-  std::set<double> water;          ///< heights of water surfaces, rounded to a tenth of a metre
-  size_t dripstones = 0;           ///< number of dripstone symbols
-  size_t leads = 0;                ///< number of places at which a passage continues beyond the region
+  double interval = 0;  ///< height difference between neighbouring contours; 0 without contours
+  double area = 0;      ///< area of the drawn void or solid, seen from above, square metres
+  /// lowest and highest height of the drawn surface: the floor of a hollow, or the top of a solid
+  double lowest = 0, highest = 0;
+  std::set<double> water;  ///< heights of water surfaces, rounded to a tenth of a metre
+  size_t dripstones = 0;   ///< number of dripstone symbols
+  size_t leads = 0;        ///< number of places at which a passage continues beyond the region
   bool empty = true;
 };
 
 /// For each column, the height of the surface seen from above: the floor of a hollow or the top of a solid; kUnknown if
-/// there is none, or if the region cuts it off.
+/// the column has no such surface, or if the region's floor or ceiling cuts it off.
 Grid heightsIn(const Columns& columns);
 
 PlanFigures drawPlan(const Columns& columns, const MaterialSigns& signs, const Placement& place, Drawing& drawing);

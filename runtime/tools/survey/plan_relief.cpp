@@ -16,7 +16,8 @@ constexpr Ink kContour{110, 110, 110}, kCeiling{60, 60, 60};
 constexpr double kMaxLevels = 14;
 constexpr double kSteep = 0.75;       // minimum slope (rise over run) of a floor with hachures
 constexpr double kCeilingStep = 1.6;  // minimum slope (rise over run) of a step in the ceiling
-constexpr double kFloorAbove = 1.8;   // metres by which the floor must rise further uphill of a hachure
+constexpr double kFloorAbove = 1.8;   // metres; a hachure is drawn only if the floor continues uphill for at least so
+                                      // much height
 constexpr double kHachureGap = 6;     // pixels between hachures along a contour
 constexpr int kMainEvery = 5;         // every kMainEvery-th contour is a main contour
 // Minimum distance between contours in pixels. On steeper slopes, only main contours are drawn.
@@ -39,8 +40,8 @@ Point slopeAt(const Grid& heights, Point p, double step) {
   return std::isnan(slope.x) || std::isnan(slope.y) ? Point{} : slope;
 }
 
-/// Draws hachures (short strokes downhill) along a contour. A hachure requires further floor uphill of it: otherwise
-/// the slope is the foot of a wall.
+/// Draws hachures (short strokes downhill) along a contour. A hachure is drawn only if there is still floor further
+/// uphill: otherwise the slope is the foot of a wall.
 void hachure(const Line& line, const Grid& heights, const Grid& within, double step, double interval,
              const Placement& place, Mark& ticks) {
   double since = kHachureGap / 2;
@@ -209,8 +210,8 @@ size_t drawDripstone(const Columns& columns, const MaterialSigns& signs, const P
     if (!taken.take(p, 2 * kSize + 3, 2 * kSize + 3)) return false;
     Mark& mark = up && down ? both : up ? standing : hanging;
     mark.lines.push_back({{p.x, p.y - (up ? kSize : 0)}, {p.x, p.y + (down ? kSize : 0)}});
-    // The symbol of a stalagmite has strokes that point down (legs); that of a stalactite has strokes that point up
-    // (arms).
+    // The symbol of a stalagmite has two strokes that point down (legs); the symbol of a stalactite has two strokes
+    // that point up (arms).
     for (const double side : {-0.7, 0.7}) {
       if (up) mark.lines.push_back({{p.x, p.y}, {p.x + side * kSize, p.y + kSize}});
       if (down) mark.lines.push_back({{p.x, p.y}, {p.x + side * kSize, p.y - kSize}});

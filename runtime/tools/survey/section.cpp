@@ -11,12 +11,12 @@ namespace sgm::survey {
 namespace {
 
 constexpr Ink kBeyond{240, 240, 240}, kOutline{150, 150, 150}, kGuide{215, 215, 215};
-constexpr double kStrip = 9;  // pixels, height of the strip that represents water below its surface
-constexpr int kAround = 4;    // samples, margin around the drawn part of the slice
-// Pixels, distance along an outline between ticks (strokes that show on which side the rock is).
+constexpr double kStrip = 9;  // height, in pixels, of the strip that represents water below its surface
+constexpr int kAround = 4;    // margin around the drawn part of the slice, in samples
+// Distance between ticks along an outline, in pixels. Ticks are strokes that show on which side the rock is.
 constexpr double kTickGap = 7;
-constexpr double kTick = 6;        // pixels, length of a tick
-constexpr double kHeightGap = 36;  // pixels, minimum distance between two labels of heights
+constexpr double kTick = 6;        // length of a tick, in pixels
+constexpr double kHeightGap = 36;  // minimum distance between two height labels, in pixels
 
 void drawGuides(const Slice& slice, const Crop& crop, const Placement& place, Drawing& drawing) {
   const double metre = place.scale / slice.step;

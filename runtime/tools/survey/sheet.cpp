@@ -44,7 +44,7 @@ Extent extentOf(const Crop& crop, double step) {
 /// Scale and positions of the plan and the section on the sheet.
 struct Layout {
   double scale = 0;     ///< pixels per metre
-  Point plan, section;  ///< positions of their upper left corners, pixels
+  Point plan, section;  ///< positions of the upper left corners of the plan and the section, pixels
 };
 
 /// Arranges the plan and the section below or beside each other, whichever allows the larger scale.

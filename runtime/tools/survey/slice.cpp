@@ -32,8 +32,8 @@ std::optional<CutLine> clippedTo(const Columns& columns, const CutLine& line) {
                  starts[1] + to * ways[1]};
 }
 
-/// Projects the subject (the void or the solid that is drawn) in all columns onto the plane of the cut, as
-/// Slice::beyond.
+/// Projects the subject (the void or the solid that is drawn) in all columns onto the plane of the cut, and stores the
+/// result in Slice::beyond.
 void lookBeyond(const Columns& columns, Slice& slice) {
   slice.beyond = Grid(slice.depth.width, slice.depth.height, -1);
   const double length = slice.line.length();
@@ -86,8 +86,9 @@ Result<void> readBlock(const WorldField& world, int level, int left, int top, Sl
   return {};
 }
 
-/// Index in the middle of the first run of areas that are nearly as large as the largest. Areas near both ends do not
-/// count: there, the region's border may cut a passage lengthwise.
+/// Finds the first run of consecutive areas that are nearly as large as the largest area, and returns the index in the
+/// middle of this run. Areas near both ends of the list do not count: there, the region's border may cut a passage
+/// lengthwise.
 double middleOfBest(const std::vector<double>& areas) {
   constexpr double kAsGood = 0.97;
   const size_t edge = areas.size() / 12, end = areas.size() - edge;

@@ -17,8 +17,8 @@ struct CutLine {
 /// Parses "X,Z:X,Z" in metres; nullopt if the text is not a pair of different points within the world.
 std::optional<CutLine> readCutLine(std::string_view text);
 
-/// A line across the whole region, parallel to its longer horizontal axis. It is placed where the cut has nearly the
-/// largest area of the subject (the void or the solid that is drawn).
+/// Returns a line for the cut: it crosses the whole region, parallel to the region's longer horizontal axis, where the
+/// area of the subject in the cut (the void or the solid that is drawn) is nearly the largest.
 CutLine longestCut(const Columns& columns);
 
 /// The samples on the vertical plane of a cut. Columns follow the line from its start; rows go down from the top.
@@ -27,10 +27,12 @@ struct Slice {
   Subject subject = Subject::hollow;
   double step = 0;  ///< metres between neighbouring samples
   double top = 0;   ///< metres, height of row 0
-  /// For each sample, depth in steps, at most 2, inside the void or solid that is drawn; negative outside it.
+  /// For each sample, its depth inside the subject (the void or the solid that is drawn), as a multiple of `step`, at
+  /// most 2; negative outside the subject.
   Grid depth;
   std::vector<uint32_t> label;  ///< for each sample: tag << 16 | material in the solid, 0 in the void
-  /// Projection of all void or solid that is drawn, from the whole region, onto the cut: 1 inside, -1 outside.
+  /// Projection of the subject onto the plane of the cut: 1 if the subject lies anywhere in front of, on or behind the
+  /// sample, otherwise -1.
   Grid beyond;
 
   double heightAt(double row) const { return top - row * step; }

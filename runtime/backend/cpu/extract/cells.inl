@@ -123,8 +123,8 @@ struct alignas(64) WaitingLoop {
   uint32_t* out;
 };
 
-/// Queues of loops by length; a queue is processed when it fills a vector. The length of the next loop is
-/// unpredictable, so cells are added without a branch on it.
+/// Queues of loops, one queue for each length of loop. A queue is processed when it is full. The length of the next
+/// loop is unpredictable, so loops are added without a branch on their length.
 class LoopQueues {
  public:
   /// offsets[v - first]: result of placeOffset() for vertex v. Triangles are written from `out` on.
@@ -232,11 +232,11 @@ class LoopQueues {
 };
 static_assert(kLongestCubeLoop == 7);
 
-/// What to add to the number of a sample's first vertex to get the number of the vertex on a cube edge that starts at
-/// the sample. One byte for each of the edges 4 to 11; edges 0 to 3 run along x, so each has the first vertex of its
-/// sample.
+/// Several crossed edges, each with one vertex, can start at the same sample. A byte for each of the edges 4 to 11 of a
+/// cube tells how many vertices of the sample precede the edge's vertex; its number is this byte plus the number of the
+/// sample's first vertex. Edges 0 to 3 run along x, so each of them has the first vertex of its sample.
 ///
-/// The added value is the sum of two parts. of_case: counts crossed edges of the cell itself. of_high: counts crossed
+/// The byte is the sum of two parts. of_case: counts crossed edges of the cell itself. of_high: counts crossed
 /// edges beyond the cell, along x (bits 0 to 2: rows 0 to 2 at high x) and y (bits 3, 4: row 1 at low and high x).
 struct CellSteps {
   uint64_t of_case[256], of_high[32];

@@ -18,7 +18,8 @@ FN EdgeLanes unpackEdges(const uint32_t* edges, size_t z) {
           axis == broadcastInt(2)};
 }
 
-/// Same as crossing() of mesh/vertex.h. The float division is off by one at most, which the following code corrects.
+/// Same as crossing() of mesh/vertex.h. The rounded quotient of the float division may be one too large or too small;
+/// the integer arithmetic after it corrects this.
 FN Int crossingOf(Int q0, Int q1) {
   const Int zero = broadcastInt(0), one = broadcastInt(1);
   const Int a = sel(q0 < zero, wrapSub(zero, q0), q0), b = sel(q1 < zero, wrapSub(zero, q1), q1);

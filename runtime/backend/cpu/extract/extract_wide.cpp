@@ -94,7 +94,7 @@ constexpr TriangleLanes<N> makeTriangleLanes() {
 template <size_t N>
 inline constexpr TriangleLanes<N> kTriangleLanes = makeTriangleLanes<N>();
 
-// Stores must end with the loop's last corner, because the memory behind it may already contain other triangles.
+// A store must not write behind the loop's last corner, because the memory there may already contain other triangles.
 template <size_t N>
 FN void writeTriangles(size_t way, const uint32_t* vertex, uint32_t* out) {
   const uint32_t* corners = kTriangleLanes<N>.corner[way];
@@ -161,7 +161,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace sgm {
 
-// The table of an instruction set; the sets differ only in their namespaces.
+// The table of functions (MeshKernels) for an instruction set. The functions of each set have the same names, in a
+// namespace of their own.
 #define SGM_EXTRACT(name, set, list)                                                                      \
   {                                                                                                       \
     name, set::extract::signsOfRow, list, set::extract::meshSlab, set::extract::countSolid,               \

@@ -27,7 +27,8 @@ inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, 
       largest = maxInt(largest, toIntBits(realToBits(v) & Uint(0x7FFFFFFFu)));
     };
     if (size == 64) {
-      // Memory bandwidth limits this loop, and hardware prefetching does not reach far enough ahead.
+      // Memory bandwidth limits this loop. Hardware prefetching does not reach far enough ahead, so prefetch
+      // explicitly.
       for (size_t line = 0; line < 4; ++line) __builtin_prefetch(values + first + kFetchAhead + 16 * line);
 #pragma GCC unroll 16
       for (lane = 0; lane < 64; lane += kLanes) take();
@@ -41,7 +42,8 @@ inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, 
     words[first / 64] = word;
   }
   good = good && !any(largest > broadcastInt(0x7F7FFFFF));
-  uint64_t some = 0, lacking = 0;  // bit per group of words: a sample is solid (some), is void (lacking)
+  uint64_t some = 0, lacking = 0;  // one bit per group of words: the group has a solid sample (some), has a void sample
+                                   // (lacking)
   const size_t group = job.lattice.group();
   for (size_t word = 0, bit = 0; word < job.lattice.words; ++bit) {
     for (const size_t end = std::min(word + group, job.lattice.words); word < end; ++word) {
@@ -176,8 +178,8 @@ inline void lookAround(const GridJob& job, size_t z, const uint32_t* edges, Edge
   }
 }
 
-/// Returns the normals where the surface crosses the edges, and sets t to these points, in 1/256 of an edge. Uses the
-/// copied samples or reads the grid.
+/// Sets t to the points at which the surface crosses the edges, in 1/256 of an edge, and returns the normals there if
+/// they are requested. Uses the copied samples if they exist, otherwise reads the grid.
 FN Vector normalsOf(const GridJob& job, const EdgeLanes& e, const float* plane, const EdgeSurroundings& around,
                     bool normals, Int& t) {
   if (around.there) {
@@ -235,9 +237,10 @@ inline void writeEdges(const GridJob& job, size_t z, const uint32_t* edges, cons
 /// Processes the listed edges of plane z. Without `write`, computes only the offsets of vertices along their edges.
 inline void writePlane(const GridJob& job, size_t z, const uint32_t* edges, size_t count, size_t vertex,
                        uint32_t* offsets, bool write, BoundsLanes& bounds) {
-  // Vectors are processed in batches, so that some time passes between writing values and reading them as vectors.
-  // Samples for edges further ahead in the list are prefetched. The plane after the next is usually not in the cache;
-  // nor are the nearer planes if a thread on another core has processed the slab below.
+  // kBatch vectors are processed at a time, so that some time passes between writing single values and reading them as
+  // vectors. Samples for edges that come kAhead later in the list are prefetched: those of plane z + 2, which are
+  // usually not in the cache; also those of planes z and z + 1 if plane z belongs to the slab below, because a thread
+  // on another core may have processed that slab.
   constexpr size_t kBatch = 2, kAhead = 128;
   const float* const beyond = job.row(0, std::min(z + 2, job.lattice.size[2] - 1));
   const size_t cold = write ? 0 : 2;
@@ -278,8 +281,8 @@ inline GridBounds meshSlab(const GridJob& job, const GridSlab& slab, const GridS
   uint32_t* low = scratch.numbers;
   uint32_t* high = scratch.numbers + size_x * job.lattice.size[1];
   LoopQueues queues(scratch.offsets, first_vertex, job.indices + slab.first_triangle * 3);
-  // The plane below the first one belongs to another slab, which writes its vertices; but their numbers and positions
-  // are needed for this slab's triangles, too.
+  // The plane below the slab's first plane belongs to the slab below, which writes its vertices. Their numbers and
+  // their offsets along edges are needed here, too, for this slab's triangles.
   for (size_t z = below; z < slab.last; ++z) {
     const size_t vertex = slab.first_vertex[z], count = slab.first_vertex[z + 1] - vertex;
     const bool own = z >= slab.first;

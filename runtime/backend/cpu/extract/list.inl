@@ -1,8 +1,8 @@
 // Lists everything that follows from the signs of samples alone: crossed edges, active cells, their cases, and counts.
 // See mesh_kernels.h; cells.inl lists the definitions that the including file must provide.
 
-/// The signs of a row at a word's samples, and at the samples that follow each of them. The row's last sample counts as
-/// followed by itself, so that no edge begins there.
+/// The signs of a row at the 64 samples of a word, and the signs at each sample's successor. The row's last sample
+/// counts as its own successor, so that no edge begins there.
 struct RowSigns {
   uint64_t low, high;
 };
@@ -13,7 +13,8 @@ FN RowSigns signsOf(const SignLattice& lattice, const uint64_t* row, size_t word
   return {low, low >> 1 | (low & uint64_t{1} << (lattice.size[0] - 1) % 64)};
 }
 
-/// Calls f(word), in order, for the words of all groups whose bit in `wanted` is set.
+/// Calls f(word), in order, for the words of the groups that `wanted` selects. Bit i stands for the group of
+/// lattice.group() words that starts at word i * lattice.group().
 template <class F>
 FN void forWords(const SignLattice& lattice, uint64_t wanted, F&& f) {
   const size_t group = lattice.group();
@@ -23,8 +24,8 @@ FN void forWords(const SignLattice& lattice, uint64_t wanted, F&& f) {
   }
 }
 
-/// For each case of a cell: bits 0 to 2 are set if the edges along x in the rows (y, z), (y + 1, z), (y, z + 1) are
-/// crossed.
+/// For each case of a cell: which edges along x are crossed. Bits 0, 1 and 2 stand for the edges in the rows (y, z), (y
+/// + 1, z) and (y, z + 1).
 struct CaseEdges {
   uint8_t along_x[256];
 };
@@ -42,13 +43,16 @@ inline constexpr CaseEdges kCaseEdges = makeCaseEdges();
 struct WordCells {
   const uint64_t* corner;  ///< signs at the cells' eight corners, in the order of a case's bits; then one unused word
   uint32_t next_case;      ///< case of the cell after the word's last cell; 0 if there is none
-  uint64_t along_y[2];     ///< bit per cell: the next edge along y (from y + 1) is crossed; [0] at low x, [1] at high x
+  /// one bit per cell: whether the cell's edge along y that starts at y + 1 is crossed; [0]: the edge at low x, [1]: at
+  /// high x
+  uint64_t along_y[2];
   uint64_t active;
   size_t place;  ///< index of the word's first cell in the plane
 };
 
-/// Calls f(bit, mask) for the bits that are set, and possibly f(64, 0) at the end: the number of bits is unpredictable,
-/// so that a branch for each bit would cost more than a useless call.
+/// Calls f(bit, mask) for each set bit: with the bit's index, and with the word in which only this bit is set. At the
+/// end, it may also call f(64, 0). The number of set bits is unpredictable, so a branch for each bit would cost more
+/// than a call without effect.
 template <class F>
 FN void forBits(uint64_t bits, F&& f) {
   do {
@@ -96,8 +100,8 @@ struct OneByOne {
   }
 };
 
-/// Lists the crossed edges that start in rows first_row..last_row - 1 of plane z, sorted by sample and axis like
-/// vertices, and the active cells of the layer above these rows, in canonical order.
+/// Lists the crossed edges that start in rows first_row..last_row - 1 of plane z, sorted by sample and axis, like the
+/// vertices. Also lists, in canonical order, the active cells between these rows and the plane above.
 inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size_t last_row, uint32_t* edges,
                            uint64_t* cells) {
   ListCounts counts;
@@ -110,7 +114,7 @@ inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_ro
                                      lattice.row(ys[1], zs[1])};
     const uint64_t* beyond_row = y + 2 < lattice.size[1] ? lattice.row(y + 2, z) : rows[1];
     forWords(lattice, mixedGroups(lattice, ys, zs), [&](size_t word) {
-      uint64_t corner[8 + 1];  // one more than corners, because spreadBits may read one word more
+      uint64_t corner[8 + 1];  // the eight corners, and one more word, because spreadBits may read it
       uint64_t some = 0, every = ~uint64_t{0};
       for (size_t i = 0; i < 4; ++i) {
         const RowSigns s = signsOf(lattice, rows[i], word);
@@ -120,8 +124,8 @@ inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_ro
         every &= s.low & s.high;
       }
       corner[8] = 0;
-      // If all signs are equal, there is no active cell. Nor does a crossed edge start here: its first sample would be
-      // the lowest sample of an active cell, unless that cell lies outside of the lattice.
+      // If all corners of the word's cells have equal signs, the word has no active cell. No crossed edge starts in the
+      // word either, since both ends of such an edge are among these corners.
       if ((some & ~every) == 0) return;
       const uint64_t x = corner[0] ^ corner[1], y_edges = corner[0] ^ corner[2], z_edges = corner[0] ^ corner[4];
       if ((x | y_edges | z_edges) != 0) {

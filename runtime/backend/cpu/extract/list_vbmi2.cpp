@@ -5,7 +5,7 @@
 #if HWY_ARCH_X86_64
 
 #if !HWY_COMPILER_CLANG
-// GCC warns about values that its own header leaves uninitialised on purpose.
+// GCC warns about values that GCC's own header of intrinsics leaves uninitialised on purpose.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #endif
@@ -37,19 +37,21 @@ namespace {
 
 #include "backend/cpu/extract/lattice.inl"
 
-/// The position of the edges along one axis within a vector of edges. Three vectors list the possible edges of 64
-/// samples, one byte per edge: the x, y and z edge of each sample in turn. shift: the first sample of the vector, as a
-/// bit of the axis's word. bytes: mask of the bytes of the vector that hold edges along the axis.
+/// Where a vector of edges holds the edges along one axis. Three vectors list the possible edges of 64 samples, one
+/// byte per edge: the x, y and z edge of each sample in turn. shift: index of the first sample in the vector, as a
+/// shift of the axis's word of crossed edges. bytes: mask of the bytes of the vector that hold edges along the axis.
 struct TurnOfAxis {
   int shift;
   uint64_t bytes;
 };
 struct Tables {
-  TurnOfAxis turns[3][3];              ///< by vector and by axis: where its edges are
-  alignas(64) uint8_t edge[3][64];     ///< by vector and byte: the edge's axis (two bits), and its sample (six bits)
+  TurnOfAxis turns[3][3];              ///< turns[v][a]: where vector v holds the edges along axis a
+  alignas(64) uint8_t edge[3][64];     ///< edge[v][i]: for byte i of vector v, the edge's axis (two bits) and its
+                                       ///< sample (six bits)
   alignas(64) uint8_t number[64];      ///< index of a byte in its vector
   alignas(64) uint8_t following[64];   ///< index of the next byte
-  alignas(64) uint8_t by_samples[64];  ///< permutation that groups the bytes of 8 words by 8 samples
+  alignas(64) uint8_t by_samples[64];  ///< permutation of the bytes of 8 words; brings together the bytes for the same
+                                       ///< 8 samples
 };
 constexpr Tables makeTables() {
   Tables tables{};
@@ -86,11 +88,11 @@ FN __m512i spreadBits(__m512i words) {
 struct Listing {
   uint32_t* edges;
   uint64_t* cells;
-  __m512i triangles;  ///< number of triangles, as eight partial sums
+  __m512i triangles;  ///< number of triangles of the listed cells, in eight partial sums that must be added
 };
 
-/// Appends the packed crossed edges along x, y and z, for 64 samples from `first` on. Their number is unpredictable, so
-/// vectors are written even if they are empty.
+/// Appends the packed crossed edges along x, y and z that start at 64 samples from `first` on. A branch on the number
+/// of edges would often be mispredicted. So vectors are always written, even if they are empty.
 FN void listEdges(const uint64_t (&crossed)[3], uint32_t first, Listing& out) {
   constexpr uint32_t kSample = 63, kAxis = 3u << 2 * kPlaceBits;
   const auto packed = [&](__m128i edges) {
@@ -125,8 +127,8 @@ FN __m512i trianglesOf(__m512i cases) {
   return _mm512_mask_mov_epi8(low, _mm512_movepi8_mask(cases), high);
 }
 
-/// Appends the packed active cells of a word. `place`: index of its first cell; `beyond`: as for packedCell, one per
-/// cell.
+/// Appends the packed active cells of a word of samples. `place`: index of the word's first cell; `beyond`: for each
+/// cell, the number that packedCell() takes as `beyond`.
 FN void listCells(uint64_t active, __m512i cases, __m512i beyond, size_t place, Listing& out) {
   const __m512i base = _mm512_set1_epi64(static_cast<int64_t>(place << 16));
   const auto packed = [&](__m128i case_and_beyond, __m128i number) {
@@ -157,7 +159,8 @@ FN void listCells(uint64_t active, __m512i cases, __m512i beyond, size_t place, 
       out.triangles, _mm512_sad_epu8(_mm512_maskz_mov_epi8(active, trianglesOf(cases)), _mm512_setzero_si512()));
 }
 
-/// The four rows of samples around a row of cells, in the order of a case's bits, and the row that follows along y.
+/// The four rows of samples around a row of cells, in the order of the bits of a marching cubes case; and the row of
+/// samples that follows them along y.
 struct RowsOfCells {
   const uint64_t *rows[4], *following;
 };
@@ -168,7 +171,7 @@ FN void listWord(const SignLattice& lattice, const RowsOfCells& around, bool has
   const bool goes_on = word + 1 < lattice.words;
   const uint64_t last = goes_on ? 0 : uint64_t{1} << (lattice.size[0] - 1) % 64, going = goes_on ? ~uint64_t{0} : 0;
   uint64_t next[4], low[4], high[4];
-  // The row's last sample counts as followed by itself, so that no edge begins there.
+  // The successor of the row's last sample is the sample itself: equal signs mean that no edge begins there.
   const auto highOf = [&](uint64_t signs, uint64_t following) { return signs >> 1 | following << 63 | (signs & last); };
   uint64_t some = 0, every = ~uint64_t{0};
   for (size_t i = 0; i < 4; ++i) {
@@ -187,14 +190,16 @@ FN void listWord(const SignLattice& lattice, const RowsOfCells& around, bool has
                                                     static_cast<int64_t>(high[2]), static_cast<int64_t>(low[2]),
                                                     static_cast<int64_t>(high[1]), static_cast<int64_t>(low[1]),
                                                     static_cast<int64_t>(high[0]), static_cast<int64_t>(low[0])));
-  // For the cell behind the word's last cell: the first two samples of the next word, whose difference shows whether an
-  // edge along x is crossed; 0 if they do not exist.
+  // `behind` is the byte that follows the byte of the last cell: for rows 0 to 2, the signs of the first two samples of
+  // the next word. If these two signs differ, the edge along x between the samples is crossed. If the rows have no two
+  // further samples, the byte is 0, so no edge is crossed.
   const bool has_two = (word + 1) * 64 + 1 < lattice.size[0];
   const uint64_t behind = (next[0] & 3) | (next[1] & 3) << 2 | (next[2] & 3) << 4;
   const __m512i following = _mm512_mask_set1_epi8(_mm512_permutexvar_epi8(bytesOf(kTables.following), cases),
                                                   uint64_t{1} << 63, static_cast<char>(has_two ? behind : 0));
-  // Bits 0 to 2 of along_x tell whether edges along x are crossed. Their two ends are bits 0 and 1, bits 2 and 3, and
-  // bits 4 and 5 of a case.
+  // Bits 0 to 2 of along_x belong to rows 0 to 2. A bit is set if the row's edge along x that starts at the cell's high
+  // x is crossed. The signs at the ends of these three edges are in the case of the following cell: bits 0 and 1, bits
+  // 2 and 3, bits 4 and 5.
   const __m512i along_x =
       _mm512_gf2p8affine_epi64_epi8(following, _mm512_set1_epi64(static_cast<int64_t>(0x030C300000000000u)), 0);
   const uint64_t far = around.following[word], far_next = around.following[word + goes_on] & going;
@@ -203,7 +208,8 @@ FN void listWord(const SignLattice& lattice, const RowsOfCells& around, bool has
   listCells(active, cases, _mm512_or_si512(along_x, along_y), y * lattice.size[0] + word * 64, out);
 }
 
-/// Returns the signs of the samples that follow along x.
+/// For each word of signs, returns the signs of the samples that follow along x: the signs shifted by one sample.
+/// `behind`: for each word, the word that follows it.
 FN __m512i highOf(__m512i low, __m512i behind) {
   return _mm512_or_si512(_mm512_srli_epi64(low, 1), _mm512_slli_epi64(behind, 63));
 }
@@ -226,7 +232,7 @@ FN size_t wordsOf(const SignLattice& lattice, const RowsOfCells& around, size_t 
       some_next = _mm512_or_si512(some_next, next_signs);
       every_next = _mm512_and_si512(every_next, next_signs);
     }
-    // The last sample of a row begins no cell, but edges along y and z can start there.
+    // No cell begins at the last sample of a row, but edges along y and z may begin there.
     const __m512i cells =
         left > 8 ? _mm512_set1_epi64(-1)
                  : _mm512_mask_set1_epi64(_mm512_set1_epi64(-1), static_cast<__mmask8>(1u << (left - 1)),
@@ -249,8 +255,8 @@ FN size_t wordsOf(const SignLattice& lattice, const RowsOfCells& around, size_t 
 
 }  // namespace
 
-/// Same as listRows of list.inl, but processes a word at a time: words with edges are found first, and no branch
-/// depends on the number of their edges and cells.
+/// Same as listRows of list.inl, but processes whole words of samples. It first finds the words with edges; the work on
+/// a word then has no branch that depends on the number of the word's edges and cells.
 ListCounts listRowsVbmi2(const SignLattice& lattice, size_t z, size_t first, size_t last, uint32_t* edges,
                          uint64_t* cells) {
   const bool above = z + 1 < lattice.size[2];

@@ -21,8 +21,9 @@ struct SignLattice {
   std::array<size_t, 3> size{};  ///< number of samples on each axis, 2 to 2^14
   size_t words = 0;              ///< number of words in a row: size[0] / 64, rounded up
   const uint64_t* signs = nullptr;
-  /// Two words per row, for groups of `group` successive words. Bit g of the first word is set if all samples of the
-  /// row's group g are void; of the second word, if all are solid. Null: unknown.
+  /// Tells which parts of the rows are uniform. A row is divided into groups of `group()` successive words. For each
+  /// row there are two words: bit g of the first is set if all samples of group g are void; bit g of the second is set
+  /// if all are solid. Null: unknown.
   const uint64_t* uniform = nullptr;
 
   size_t group() const { return (words + 63) / 64; }
@@ -46,8 +47,8 @@ struct GridJob {
   const float* row(size_t y, size_t z) const { return values + y * stride_y + z * stride_z; }
 };
 
-/// The results of listing rows of a plane: the number of crossed edges that start in these rows (one vertex each), and
-/// the numbers of active cells and of their triangles in the layer above.
+/// The results of listing rows of a plane. vertices: number of crossed edges that start in these rows (each edge has
+/// one vertex). cells, triangles: numbers of active cells, and of the triangles in them, in the layer of cells above.
 struct ListCounts {
   uint64_t vertices = 0, cells = 0, triangles = 0;
 };
@@ -70,9 +71,9 @@ struct GridBounds {
 /// below it.
 struct GridSlab {
   size_t first = 0, last = 0;
-  /// by plane, with one more element at the end: number of the plane's first vertex
+  /// for each plane, the number of its first vertex; one more element marks the end
   const uint64_t* first_vertex = nullptr;
-  /// by layer, with one more element at the end: number of the layer's first cell
+  /// for each layer, the number of its first cell; one more element marks the end
   const uint64_t* first_cell = nullptr;
   uint64_t first_triangle = 0;      ///< number of the slab's first triangle
   const uint32_t* edges = nullptr;  ///< list of crossed edges of the slab's planes
@@ -82,11 +83,13 @@ struct GridSlab {
   const uint64_t* cells_below = nullptr;
 };
 
-/// Working memory for one slab, which need not be initialised. Capacities: of `numbers`, 2 * size[0] * size[1]; of
-/// `offsets`, the number of vertices of the slab and of the plane below it, plus kMaxLanes.
+/// Working memory for meshing one slab; the caller need not initialise it. Capacities: of `numbers`, 2 * size[0] *
+/// size[1]; of `offsets`, the number of vertices of the slab and of the plane below it, plus kMaxLanes.
 struct GridScratch {
-  uint32_t* numbers = nullptr;  ///< number of each sample's first vertex, for two planes
-  uint32_t* offsets = nullptr;  ///< offset of each vertex of the slab and of the plane below it along its edge
+  /// for each sample of two planes: number of the first vertex on the edges that start at the sample
+  uint32_t* numbers = nullptr;
+  uint32_t* offsets = nullptr;  ///< for each vertex of the slab and of the plane below the slab: its offset along its
+                                ///< edge
 };
 
 /// number of samples of a brick along each axis; a chunk's last brick has one more
@@ -116,11 +119,12 @@ struct MeshScratch {
 
   RawArray<uint32_t> numbers, edges, offsets;
   RawArray<uint64_t> cells;
-  /// For each vertex of a body: the brick (a block of 8^3 samples) of the sample at which the vertex's edge starts (x
-  /// fastest), and the vertex's position in units.
+  /// For each vertex of a body: the number of a brick (a block of 8^3 samples; x varies fastest), and the vertex's
+  /// position in units. The brick contains the sample at which the vertex's edge starts.
   RawArray<uint32_t> brick;
   RawArray<int32_t> place_x, place_y, place_z;
-  /// For the vertices in the order in which they are evaluated, brick by brick: their indices, and their attributes.
+  /// The order in which the vertices are evaluated, brick by brick: `order` contains their indices; the arrays after it
+  /// contain their attributes in this order.
   RawArray<uint32_t> order, label;
   RawArray<int32_t> x, y, z, q;
   RawArray<int16_t> normal_x, normal_y;
@@ -131,8 +135,8 @@ struct MeshScratch {
   }
 };
 
-/// The functions of one instruction set. They are pure except for the memory to which their arguments point, which
-/// concurrent calls must not share.
+/// The functions of one instruction set. They change only the memory to which their arguments point, and concurrent
+/// calls must not write to the same memory.
 struct MeshKernels {
   const char* name;
   /// Writes the signs of a row of the grid, and the bits of its uniform groups (SignLattice::uniform). Returns false if
@@ -143,7 +147,7 @@ struct MeshKernels {
   List* list;
   /// Writes the vertices and triangles of a slab.
   GridBounds (*mesh)(const GridJob&, const GridSlab&, const GridScratch&);
-  /// Counts the solid samples of a chunk, without those of its high faces.
+  /// Counts the solid samples of a chunk, except those in its upper faces (at the maximum x, y or z).
   uint32_t (*count)(const ChunkSamples&);
   /// Same as polygonizeBody of mesh/body.h, with or without keys; also fills scratch.brick and scratch.place_x, y, z.
   void (*polygonize)(const ChunkSamples&, const ChunkGrid&, bool keys, MeshScratch&, MeshPart&);
@@ -157,10 +161,11 @@ struct MeshKernels {
 };
 
 const MeshKernels& scalarMeshKernels();
-/// Returns the kernels of a vector instruction set; null if this build does not contain it. Not for "scalar".
+/// Returns the kernels of a vector instruction set; null if this build does not contain it. The set "scalar" is not
+/// among them.
 const MeshKernels* findWideMeshKernels(const char* name);
-/// Returns the kernels of an instruction set, by the names of findKernels(); null if this build does not contain it, or
-/// this processor does not support it.
+/// Returns the kernels of an instruction set. name: as for findKernels(). Null if this build does not contain the set,
+/// or this processor does not support it.
 const MeshKernels* findMeshKernels(const char* name);
 /// Returns the kernels for the instruction set of bestKernels().
 const MeshKernels& bestMeshKernels();

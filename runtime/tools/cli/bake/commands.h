@@ -10,8 +10,8 @@
 
 namespace sgm::cli {
 
-/// The error message for a device whose meshes are not bit-identical to those of other devices, so that they must not
-/// be stored.
+/// The error message for a device whose meshes differ in some bits from the meshes of other devices. Such meshes must
+/// not be stored.
 inline constexpr const char* kNotExact =
     "the meshes of this device differ from those of other devices: use --backend cpu for a store";
 
@@ -21,10 +21,11 @@ struct BakeOptions : WorldOptions {
   /// The shard (part of the world's tiles) to bake, in the form of readShard(). Empty: all tiles are baked and then
   /// merged.
   std::string shard;
-  bool merge = false;               ///< merges finished shards into the store instead of baking
-  uint64_t slurm = 0;               ///< number of shards to bake as jobs of Slurm; 0: bakes in this process
-  std::vector<std::string> sbatch;  ///< options of sbatch for these jobs
-  bool detach = false;              ///< submits the jobs without waiting for them
+  bool merge = false;               ///< true: merges finished shards into the store instead of baking
+  uint64_t slurm = 0;               ///< number of shards, each of which Slurm bakes as a separate job; 0: this process
+                                    ///< bakes
+  std::vector<std::string> sbatch;  ///< options of the command sbatch for the jobs of Slurm
+  bool detach = false;              ///< true: submits the jobs of Slurm without waiting for their end
 };
 Exit bake(const BakeOptions& options);
 

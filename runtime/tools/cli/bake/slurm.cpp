@@ -31,8 +31,8 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-/// Runs a Slurm command. Returns its output on standard output and standard error. Error: unsupported if the command is
-/// missing.
+/// Runs a Slurm command. Returns the text that it writes to standard output and standard error. Error: unsupported if
+/// the command is missing.
 Result<platform::ProcessOutput> runSlurm(const std::vector<std::string>& command) {
   platform::ProcessSettings settings;
   settings.program = command[0];
@@ -133,7 +133,7 @@ Result<SlurmJobs> submitJobs(const SlurmBake& bake) {
     return submit(bake, what, line, own);
   };
   // Cancels the jobs submitted so far if a later job cannot be submitted or the job numbers cannot be stored: otherwise
-  // these jobs would run concurrently with those of the next call.
+  // they would run concurrently with the jobs of the next call.
   const auto giveUp = [&](const Error& error) {
     for (const std::string& job : {jobs.verification, jobs.merge, jobs.shards}) {
       if (!job.empty()) (void)runSlurm({"scancel", job});

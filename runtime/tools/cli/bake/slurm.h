@@ -1,7 +1,7 @@
 #pragma once
 // Runs a bake as jobs of Slurm: an array job with a task for each shard, a merge job that starts after all shards have
-// succeeded, then a verification job. If a node dies, Slurm restarts its shard, which keeps the tiles that it has
-// finished.
+// succeeded, and then a verification job. If a node dies, Slurm restarts the task of its shard; the tiles that the task
+// has finished are kept.
 
 #include <filesystem>
 #include <optional>
@@ -18,7 +18,7 @@ struct SlurmBake {
   uint64_t shards = 1;
   std::vector<std::string> options;  ///< options of sbatch, for every job
   std::string name;                  ///< name of the jobs in Slurm
-  std::filesystem::path folder;      ///< existing folder for the scripts, the jobs' output, and the job numbers
+  std::filesystem::path folder;      ///< folder for the scripts, the jobs' output, and the job numbers; must exist
 };
 
 /// The numbers that Slurm has assigned to the jobs of a bake.
@@ -42,8 +42,8 @@ Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake);
 /// Submits all jobs of a bake. If one job cannot be submitted, cancels the others.
 Result<SlurmJobs> submitJobs(const SlurmBake& bake);
 /// The state of the jobs. Waiting and running jobs are read from Slurm's queue, which is current. The results of ended
-/// jobs are read from Slurm's accounting, which may lag behind, or, without accounting, from the queue, which forgets
-/// ended jobs after some minutes.
+/// jobs are read from Slurm's accounting, which may lag behind. Without accounting they are read from the queue, which
+/// forgets ended jobs after some minutes.
 Result<SlurmState> stateOf(const SlurmJobs& jobs);
 
 }  // namespace sgm::cli

@@ -93,7 +93,7 @@ std::optional<Json> originOf(const fs::path& manifest) {
   return origin;
 }
 
-/// Bakes some chunks of the world that the options describe again, and compares them with the stored chunks. Adds the
+/// Bakes again some chunks of the world that the options describe, and compares them with the stored chunks. Adds the
 /// result to `json`.
 Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder, Json& json) {
   const OpenedWorld opened = openWorld(options);

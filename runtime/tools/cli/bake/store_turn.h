@@ -9,8 +9,8 @@
 
 namespace sgm::cli {
 
-/// Calls change(0 ms), where the argument is the time to wait for the store's lock. If another process holds the lock,
-/// prints a notice and calls change again with a longer time.
+/// Calls change(0 ms); the argument is the maximum time to wait for the store's lock. If another process holds the
+/// lock, prints a notice and calls change again with a longer time.
 template <class Change>
 auto inTurn(const store::Folder& store, const Change& change) {
   auto changed = change(std::chrono::milliseconds(0));

@@ -163,7 +163,8 @@ Exit benchChunks(const BenchChunksOptions& options) {
     for (const unsigned count : threads) {
       Result<Row> row = Contest(opened, options, set.kernels->name, count).run(opened.region);
       if (!row) return reportError(row.error());
-      // On a machine with one processor, skip the row for all processors, since it would repeat the row for one thread.
+      // On a machine with one processor, skip the measurement with all processors, since it would repeat the
+      // measurement with a single thread.
       if (count != 1 && row->threads == 1) continue;
       rows.push_back(std::move(*row));
     }

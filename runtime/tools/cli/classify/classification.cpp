@@ -13,7 +13,7 @@ using measure::ClassDistance;
 using measure::Master;
 using measure::MasterKey;
 
-/// The key of the reference histograms for a histogram mode. density: grid cells per metre; 0 if unknown.
+/// Returns the set's key for a histogram mode and a mesh. density: the mesh's grid cells per metre; 0 if unknown.
 Result<MasterKey> keyFor(const std::string& mode, const masters::MasterSet& set, double density) {
   std::string there;
   for (const measure::MasterLimits& limits : set.limits) {

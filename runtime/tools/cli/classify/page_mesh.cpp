@@ -12,7 +12,8 @@ namespace {
 
 using Position = std::array<float, 3>;
 
-/// Triangles with coordinates of larger magnitude are ignored as non-finite, as in `sgm measure`.
+/// Triangles with a coordinate of larger magnitude are ignored, like those with a coordinate that is not finite; `sgm
+/// measure` does the same.
 constexpr double kFarthest = 1e37;
 
 bool isPlace(const asset::Point& p) {
@@ -29,8 +30,8 @@ void thinOut(std::vector<uint32_t>& indices) {
   indices.resize(3 * kept);
 }
 
-/// Merges points at the same position. Otherwise the simplifier would treat them as the two sides of a seam, which it
-/// must not move, and it could not collapse any edge of a mesh whose triangles share no points.
+/// Merges points at the same position. Otherwise the simplifier would take them for the two sides of a seam, and it
+/// must not move seams. It could then collapse no edge of a mesh whose triangles share no points.
 void weld(std::vector<uint32_t>& indices, std::vector<Position>& positions) {
   std::vector<uint32_t> remap(positions.size());
   const size_t count = meshopt_generateVertexRemap(remap.data(), indices.data(), indices.size(), positions.data(),
@@ -72,8 +73,8 @@ void dropFolded(std::vector<uint32_t>& indices, const std::vector<Position>& pos
   if (kept > 0) indices.resize(kept);
 }
 
-/// Collapses edges first, which rarely reverses a triangle. If the mesh has too many separate parts to keep each, its
-/// points are then clustered, which reduces some parts to tiny remnants.
+/// First collapses edges, because this rarely reverses a triangle. If too many triangles remain, since the mesh has
+/// many separate parts, its points are clustered instead. This reduces some parts to tiny remnants.
 void simplify(std::vector<uint32_t>& indices, std::vector<Position>& positions) {
   constexpr size_t kMost = 3 * kMaxPreviewTriangles;
   constexpr float kAnyError = 1;

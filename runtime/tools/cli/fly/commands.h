@@ -16,14 +16,15 @@ struct FlyOptions : WorldOptions {
   double speed = 20;
   uint64_t frames = 600;
   uint64_t teleports = 0;
-  double edits = 0;      ///< digs (edits of the world) per second of the path
-  bool animate = false;  ///< animates grammar parameters during the flight
+  double edits = 0;      ///< number of digs (edits of the world) per second of the flight
+  bool animate = false;  ///< true: animates grammar parameters during the flight
   /// Names of the parameters to animate; empty: all parameters that the grammar declares animated.
   std::vector<std::string> animated;
   bool check = false, unpaced = false, compare = false;
-  bool measure = false;  ///< measures the mesh of every chunk (SGM_WORLD_MEASURE)
+  bool measure = false;  ///< true: measures the mesh of every chunk (SGM_WORLD_MEASURE)
   int top_level = 6;
-  /// In metres: distance drawn at level 0 (the finest), its streaming margin, view distance.
+  /// In metres: the distance up to which level 0 (the finest) is drawn; the additional distance in which level 0 is
+  /// already requested; and the view distance.
   double finest = 24, finest_margin = 6, view = 600;
   uint64_t mesh_mb = 256;
   uint64_t pictures = 0;

@@ -53,7 +53,7 @@ Exit reportApiError(const sgm_error& error) {
   return reportError(status, error.message);
 }
 
-/// Log callback of the world: prints warnings, such as a damaged journal or an unwritable folder, to stderr.
+/// Log callback of the world: prints warnings to stderr, for example about a damaged journal or an unwritable folder.
 void tellWarning(void* scene, sgm_log_level level, const char* message) {
   if (level >= SGM_LOG_WARNING && !static_cast<Scene*>(scene)->quiet)
     std::fprintf(stderr, "sgm: warning: %s\n", message);
@@ -150,7 +150,7 @@ Result<FlightPath> pathOf(const FlyOptions& options, const Scene& scene) {
   return FlightPath::automatic(scene.field.get(), scene.grammar.get(), flight);
 }
 
-/// The hash of the level-0 chunks around the flight's last position.
+/// Returns the hash of the level-0 chunks around the last position of the flight.
 Result<uint64_t> hashAround(const Scene& scene, const FlightPlace& place) {
   // Clamp the position, so that the box, extended to whole chunks, stays within the range of coordinates.
   const int64_t farthest = std::numeric_limits<int32_t>::max() - int64_t{SGM_CHUNK_CELLS} * scene.cell - kHashedAround;

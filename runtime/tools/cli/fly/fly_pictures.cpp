@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint64_t kFramesAPicture = 2;  // number of flight frames per video picture
 constexpr uint64_t kFramesALook = 60;    // number of frames between two measurements of the light
-// A longer movement between two frames, in metres, counts as a teleport; regular flight is always slower.
+// In metres. A longer movement between two frames counts as a teleport, because it never occurs in regular flight.
 constexpr double kLeap = 20;
 
 /// The world with its edits and animated parameters, in the form in which daylight is measured.
@@ -64,8 +64,8 @@ Result<void> FlyPictures::look(const FlownScene& scene, uint64_t frame, const Fl
   camera.aspect = static_cast<double>(request.width) / request.height;
   LitWorld world = litWorld(scene);
   const std::optional<Light> wanted = lightNamed(options_.light);
-  // No daylight is needed if an option fixes the light, or if levels are drawn in even light. Setting roofless to false
-  // makes lookOut() skip its measurement.
+  // Daylight need not be measured if an option fixes the light, or if the picture shows levels, which are drawn in even
+  // light. If `roofless` is false, lookOut() does not measure it.
   if (wanted || options_.levels) world.roofless = false;
   const Result<Outlook> outlook = lookOut(world, camera);
   if (!outlook) return outlook.error();

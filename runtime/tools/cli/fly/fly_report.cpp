@@ -8,8 +8,8 @@
 namespace sgm::cli {
 namespace {
 
-/// Maximum number of commits (updates of the picture) until a dig must be visible: the commit in preparation when the
-/// dig was made, and the next commit.
+/// A dig must be visible after at most this number of new drawn frames: the frame that was in preparation when the dig
+/// was made, and the frame after it.
 constexpr double kMaxDigFrames = 2;
 
 double shareOf(uint64_t part, uint64_t whole) {

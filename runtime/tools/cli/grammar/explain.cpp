@@ -83,7 +83,7 @@ std::string measureText(const ExplainedNode& node) {
   }
 }
 
-/// The explanation of one place, with the names that its printing needs.
+/// The explanation of one place, and the names that are needed to print it.
 struct Answer {
   const Program& program;
   std::string_view file;

@@ -20,20 +20,21 @@ struct MeasureOptions : WorldOptions {
   /// range.
   double curvature_length = 1;
   bool unique_edges = false;
-  /// Edge in metres of the cubes for an additional measurement of the volume; empty: none.
+  /// Edge in metres of the cubes that are counted for an additional measurement of the volume; empty: no such
+  /// measurement.
   std::optional<double> cubes;
   bool no_self_intersections = false;
-  bool strict = false;  ///< exits with an error if the mesh is not valid
-  /// Options on the command line that apply only to grammars, or only to mesh files.
+  bool strict = false;  ///< true: exits with an error if the mesh is not valid
+  /// names of the given options that apply only to grammars, and of those that apply only to mesh files
   std::vector<std::string> of_grammars, of_files;
-  bool field = false;            ///< compares the mesh with the field of its grammar
+  bool field = false;            ///< true: compares the mesh with the field of its grammar
   int levels = 0;                ///< number of pairs of successive levels to compare, from `level` on
-  bool drawing = false;          ///< estimates the cost of drawing
+  bool drawing = false;          ///< true: estimates the cost of drawing the mesh on a GPU
   std::optional<double> texels;  ///< resolution of the texture whose texel density is measured
   std::string against;           ///< mesh file to which the distance is measured; empty: none
   std::string from, to;          ///< end points in metres of a path through the void; both or neither
-  /// Radius in metres of the agent that moves along the path. If radius or `from` is set, the void is measured instead
-  /// of the surface.
+  /// Radius, in metres, of an agent. If `radius` or `from` is set, the command measures the void through which the
+  /// agent moves, instead of the surface.
   std::optional<double> radius;
   SandboxOptions sandbox;  ///< limits of the process that reads mesh files
 };

@@ -38,8 +38,8 @@ DrawingCost drawingCost(const measure::Triangles& mesh) {
     }
   }
   if (indices.empty()) return cost;
-  // Positions are relative to the mesh's corner and scaled by its size, since single precision would merge vertices far
-  // from the origin.
+  // Positions are made relative to the mesh's corner and divided by its size: far from the origin, single precision
+  // would merge different vertices.
   const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   const double scale = size > 0 ? 1 / size : 0;
   std::vector<float> positions;

@@ -29,13 +29,13 @@ measure::MeshSettings settingsOf(const MeasureOptions& options) {
   return settings;
 }
 
-/// The mesh to measure, and the parts of its report that are known before.
+/// The mesh to measure, and the parts of its report that are known before it is measured.
 struct Subject {
   const asset::TriangleMesh& mesh;
-  /// Set for a region of a grammar: the region's box, whose faces may cut the surface open.
+  /// Only for a region of a grammar's world: the region's box. The surface may be cut open in the faces of this box.
   std::optional<measure::Cut> cut;
   Json json;              ///< properties of the source of the mesh
-  std::string text;       ///< the same properties as text, printed after the mesh's name
+  std::string text;       ///< properties of the source of the mesh as text, printed after the mesh's name
   std::string_view unit;  ///< unit of length in the text: " m", or empty if unknown
   std::vector<std::pair<std::string, Section>> sections;  ///< optional sections with their names in JSON
 };
@@ -112,7 +112,8 @@ Result<std::string> measureFile(const MeasureOptions& options) {
   return reportOf(subject, options, **jobs, watch);
 }
 
-/// Measures the distance between the meshes of each two successive levels. The region is extended to whole chunks.
+/// Measures, for each pair of successive levels, the distance between the meshes of the two levels. The region is
+/// extended to whole chunks.
 Result<Section> levelsOf(const MeasureOptions& options, const WorldField& world, Backend& backend, JobSystem& jobs,
                          const Region& region) {
   Section all;

@@ -10,14 +10,14 @@
 
 namespace sgm::cli {
 
-/// All measures as JSON, in the mesh's unit of length. origin: world position of the mesh's origin, which is added to
+/// All measures as JSON, in the mesh's unit of length. origin: world position of the mesh's origin; it is added to
 /// reported positions.
 Json toJson(const measure::MeshMeasures& measures, measure::Point origin = {});
-/// The report of `sgm measure` as JSON, except the elapsed time: the members of `known`, the file's name, and all
-/// measures.
+/// The report of `sgm measure` as JSON, except the elapsed time: it has the members of `known`, the file's name, and
+/// all measures.
 Json reportJson(Json known, const std::string& file, const measure::MeshMeasures& measures, measure::Point origin);
-/// All measures as lines of text, to be printed below a line that names the mesh. unit: " m", or empty if the mesh's
-/// unit is unknown.
+/// Returns all measures as lines of text. The caller prints them below a line that names the mesh. unit: suffix of
+/// lengths, " m"; empty if the mesh's unit is unknown.
 std::string textOf(const measure::MeshMeasures& measures, measure::Point origin = {}, std::string_view unit = "");
 /// Reasons why the mesh is not the surface of a solid: one sentence for each kind of defect, with the position of its
 /// first occurrence if known.

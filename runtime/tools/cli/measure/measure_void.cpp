@@ -33,8 +33,8 @@ const char* nameOf(WayVerdict verdict) {
   return "apart";
 }
 
-/// Whether the search for the widest path reached the maximum radius that it considers, so that the path's true radius
-/// may be larger.
+/// True if the widest path is as wide as the largest radius that the search considers. Then its true radius may be
+/// larger.
 bool isOpenEnded(const VoidWay& way, int32_t cell) { return way.widest >= double{kMaxClearance} * cell; }
 
 std::string widestText(const VoidWay& way, int32_t cell) {
@@ -184,7 +184,7 @@ Exit measureVoid(const MeasureOptions& options) {
   }();
   if (!answer) return reportError(answer.error());
   const double seconds = watch.seconds();
-  // Notes about omitted shapes cannot be collected if the region has too many cells to derive at once; that is not an
+  // If the region has too many cells to derive at once, the notes about omitted shapes are missing, which is not an
   // error.
   const Result<std::vector<DeriveNote>> notes = world.notes(answer->extent, cell);
   if (!notes && notes.error().code != Code::limit) return reportError(notes.error());

@@ -1,5 +1,5 @@
 #pragma once
-// The optional sections of the report of `sgm measure`, which need more input than the mesh itself.
+// The optional sections of the report of `sgm measure`. These sections need more input than the mesh itself.
 
 #include <string>
 

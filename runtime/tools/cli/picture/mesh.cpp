@@ -23,7 +23,8 @@ namespace {
 struct Summary {
   Measures measures;
   double volume = 0, void_volume = 0;  ///< volume in m3 of the solid and of the void, by the divergence theorem
-  double cubes = 0, void_cubes = 0;    ///< the same volumes by counting cubes (equation 8 of the paper)
+  double cubes = 0, void_cubes = 0;    ///< volume in m3 of the solid and of the void, by counting cubes (equation 8 of
+                                       ///< the paper)
   std::vector<std::string> files;
   uint64_t bytes = 0;  ///< total size of all written files
 };

@@ -18,8 +18,8 @@ std::string cornerText(Int3 corner) {
   return fmt::format("{:.10f},{:.10f},{:.10f}", metres(corner.x), metres(corner.y), metres(corner.z));
 }
 
-/// The options for meshing a region again that has been meshed with equal cells: they state the region, and a camera
-/// that is chosen in it, explicitly.
+/// Returns options for meshing the same region again: they state the region's box, its cell size, and a camera that is
+/// chosen to show it.
 Result<RenderOptions> withCamera(const RenderOptions& options, const Region& region) {
   const Result<RegionScene> scene = sceneOf(options, region);
   if (!scene) return scene.error();
@@ -36,7 +36,8 @@ Result<RenderOptions> withCamera(const RenderOptions& options, const Region& reg
 }
 
 /// Meshes the region that the options select. If --pixels requires smaller cells near the camera, but no camera is
-/// given, meshes the region first with equal cells to choose the camera, and then again with smaller cells.
+/// given, meshes the region twice: first with cells of one size, to choose the camera; then with smaller cells near the
+/// camera.
 RegionResult meshPicture(RenderOptions& options, std::optional<RegionDensity>& density) {
   RegionResult made = meshRegion(options, picturePlan(options, density));
   if (!made.region || !options.pixels || !options.camera.empty() || !checkDrawable(options, *made.region)) return made;

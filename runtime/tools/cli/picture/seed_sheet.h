@@ -6,10 +6,10 @@
 
 namespace sgm::cli {
 
-/// Draws the contact sheet. The sheet has about the size of --size, its pictures have the same aspect ratio, and there
-/// are about as many columns as rows. If a seed fails, an error message takes the place of its picture; the returned
-/// status is that of the first failed seed. If all seeds fail, no file is written. Contract: options.seeds is valid for
-/// readSeeds().
+/// Draws the contact sheet. The sheet has about the size that --size gives. Its pictures have the same aspect ratio as
+/// the sheet, in about as many columns as rows. If a seed fails, an error message takes the place of its picture; the
+/// function then returns the exit status of the first failed seed. If all seeds fail, no file is written. Contract:
+/// options.seeds is valid for readSeeds().
 Exit drawSeeds(const RenderOptions& options);
 
 }  // namespace sgm::cli

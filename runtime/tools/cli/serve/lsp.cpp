@@ -21,8 +21,8 @@ constexpr uint64_t kMaxBytes = uint64_t{64} << 20;  // maximum size of the conte
 constexpr size_t kMaxHeaderBytes = 64 << 10;        // maximum total size of the header lines of a message
 constexpr int kDeepest = 256;                       // maximum nesting depth of arrays and objects
 
-/// Whether arrays and objects are nested more than kDeepest deep: the JSON library copies and prints values
-/// recursively, and the stack is limited. For text that is not JSON, the result is arbitrary.
+/// Whether arrays and objects are nested deeper than kDeepest. The limit protects the stack, because the JSON library
+/// copies and prints values recursively. For text that is not JSON, the result is arbitrary.
 bool isTooDeep(std::string_view json) {
   int depth = 0;
   bool in_text = false;
@@ -94,7 +94,7 @@ class MessageReader {
   }
 
   /// Reads one header line. left: number of header bytes that may still be read; updated. Returns false at the end of
-  /// the input, or if the line is longer.
+  /// the input, or if the line is longer than `left`.
   bool headerLine(std::string& line, size_t& left) {
     line.clear();
     for (char c = 0; left > 0 && in_.get(c); --left) {

@@ -8,7 +8,7 @@
 
 namespace sgm::service::http {
 
-/// Properties of an answer that its connection determines and not the request's handler.
+/// Properties of an answer that the connection determines, not the handler that makes the answer.
 struct AnswerFrame {
   bool http11 = true;     ///< whether the request's version is HTTP/1.1; otherwise it is HTTP/1.0
   bool close = false;     ///< whether the connection closes after this answer

@@ -52,8 +52,8 @@ ReaderLimits readerLimits(const ServerSettings& settings) {
 
 }  // namespace
 
-/// Wraps a completion handler and keeps the connection alive until it is called. If the handler throws, for lack of
-/// memory, the connection is closed: it would otherwise hang.
+/// Wraps a completion handler: the wrapper keeps the connection alive until it is called. If the handler throws because
+/// memory is short, the wrapper closes the connection, which would otherwise hang.
 template <class Call>
 auto Connection::guarded(Call call) {
   return [self = shared_from_this(), call](const ErrorCode& error, auto...) {
@@ -104,8 +104,8 @@ void Connection::close() noexcept {
 void Connection::enter(Phase phase, std::chrono::milliseconds time) {
   phase_ = phase;
   deadline_ = Clock::now() + time;
-  // A running timer is only moved to an earlier time. A later deadline is checked when the timer fires, so most
-  // requests never set the timer.
+  // A running timer is set again only if the new deadline is earlier. If the deadline is later, the timer fires early
+  // and is then set to the deadline. So most requests never set the timer.
   if (deadline_ < alarm_) setAlarm();
 }
 
@@ -136,7 +136,8 @@ void Connection::onTooSlow() {
 }
 
 /// Closes the connection when the client resets it, also while no read or write is pending. A half-closed connection
-/// stays open. Urgent data triggers the same event, after which the connection is no longer watched.
+/// stays open. Urgent data triggers the same event without a reset: the connection then stays open, but is no longer
+/// watched.
 void Connection::watch() {
   socket_.async_wait(net::socket_base::wait_error, guarded([this](const ErrorCode& error) {
                        pollfd ended{socket_.native_handle(), 0, 0};
@@ -226,8 +227,8 @@ void Connection::work() {
   try {
     loop_.handler.answer(reader_.request(), std::move(body_), std::move(reply));
   } catch (...) {
-    // The exception needs no handling: if it destroyed the reply, a 500 is sent; otherwise the owner of the reply will
-    // answer.
+    // The exception needs no handling. If all copies of the Reply have been destroyed, the client gets a 500. Otherwise
+    // the owner of a copy will answer.
   }
 }
 

@@ -25,8 +25,8 @@ class Connection final : public Answered, public std::enable_shared_from_this<Co
   /// Sends a 503 and closes the connection.
   void turnAway();
   void deliver(std::optional<Response> response) override;
-  /// Called when the server stops: closes the connection, unless the head of a request has arrived that is not yet
-  /// answered.
+  /// Called when the server stops. Closes the connection unless a request is pending, that is, its head has arrived but
+  /// it is not answered yet.
   void stopSoon();
   /// Closes the connection immediately. May destroy it, so the caller must not use it afterwards.
   void close() noexcept;
@@ -60,14 +60,15 @@ class Connection final : public Answered, public std::enable_shared_from_this<Co
   boost::asio::steady_timer timer_;
   Phase phase_ = Phase::idle;
   Clock::time_point deadline_ = Clock::time_point::max();
-  /// Time at which the timer fires, never later than deadline_. The deadline is then checked.
+  /// Time at which the timer fires, never later than deadline_. When the timer fires before deadline_, the connection
+  /// starts it again.
   Clock::time_point alarm_ = Clock::time_point::max();
   std::shared_ptr<std::atomic<bool>> gone_ = std::make_shared<std::atomic<bool>>(false);
   /// Number of the current wait for bytes. A wait that completes with an older number was cancelled, and is ignored.
   uint32_t turn_ = 0;
   RequestReader reader_;
-  std::string kept_;  ///< bytes that arrived behind the current request; they belong to the rest of it or to the next
-                      ///< request
+  std::string kept_;  ///< bytes that have arrived but are not yet parsed: they belong to the rest of the current
+                      ///< request or to the next one
   std::unique_ptr<Body> body_;
   std::string answer_head_;
   std::shared_ptr<const std::string> answer_body_;

@@ -20,8 +20,8 @@ using Reply = std::function<void(Response)>;
 class Body {
  public:
   virtual ~Body() = default;
-  /// Receives the next piece of the body. If it returns an answer, that is sent at once, the rest of the body is
-  /// ignored, and the connection closes.
+  /// Receives the next piece of the body. If take() returns an answer, the server sends the answer at once, ignores the
+  /// rest of the body, and closes the connection.
   virtual std::optional<Response> take(std::string_view piece) = 0;
 };
 

@@ -80,8 +80,8 @@ std::optional<Problem> readHead(std::string_view text, Head& head) {
 
   beast::http::request_parser<beast::http::empty_body> parser;
   parser.header_limit(static_cast<uint32_t>(std::min<size_t>(text.size(), UINT32_MAX)));
-  parser.body_limit(UINT64_MAX);  // RequestReader checks the limit (Beast's value for "no limit" would reject every
-                                  // length)
+  parser.body_limit(UINT64_MAX);  // Switches off Beast's own limit, because RequestReader checks the body's length.
+                                  // (With Beast's value for "no limit", every length would be rejected.)
   beast::error_code error;
   parser.put(boost::asio::const_buffer(text.data(), text.size()), error);
   if (error || !parser.is_header_done()) return badRequest("The request's header is not valid HTTP.");

@@ -26,7 +26,7 @@ class HeadScanner {
   /// returned a problem.
   std::optional<Problem> scan(std::string_view& bytes);
   bool whole() const { return whole_; }
-  /// Whether any byte has been consumed since reset(), even if only that of an empty line before the head.
+  /// Whether any byte has been consumed since reset(). The bytes of an empty line before the head count, too.
   bool begun() const { return begun_; }
   /// The head so far, from the first letter of the request line up to and including the final empty line.
   const std::string& text() const { return text_; }

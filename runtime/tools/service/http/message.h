@@ -25,11 +25,13 @@ struct Request {
   std::vector<Field> fields;
   /// Becomes true when the answer is no longer needed: the client has disconnected, the request has exceeded its time
   /// limit, or the server has stopped. A client that has only shut down its sending direction still waits for the
-  /// answer. A client that has closed its socket looks the same at first: its system resets the connection within about
-  /// two minutes. Null if the request does not come from a server. Thread-safe; a copy may outlive the request.
+  /// answer. A client that has closed its socket looks the same at first, until its system resets the connection,
+  /// within about two minutes. Null if the request does not come from a server. Thread-safe; a copy may outlive the
+  /// request.
   std::shared_ptr<const std::atomic<bool>> gone;
 
-  /// The value of the first header with this name, in any case; nullopt if there is none.
+  /// Returns the value of the first header with this name, whose letters may be of either case; nullopt if there is
+  /// none.
   std::optional<std::string_view> field(std::string_view name) const;
   /// The first value of the query parameter with this name; nullopt if there is none.
   std::optional<std::string_view> parameter(std::string_view name) const;

@@ -23,7 +23,7 @@ struct Letter {
 
 namespace {
 
-/// An allocator that uses the letter's own memory, or the heap if that memory is too small or in use.
+/// An allocator that uses the memory inside a Letter, or the heap if that memory is too small or in use.
 template <class T>
 struct LetterAllocator {
   using value_type = T;
@@ -63,8 +63,8 @@ struct Delivery {
   std::shared_ptr<Letter> letter;
 };
 
-/// Shared by all copies of a Reply. Posts its letter once: with the answer at the first call, or without an answer when
-/// all copies have been destroyed.
+/// The state that all copies of a Reply share. It posts its Letter to the server's thread exactly once: with the answer
+/// when the first copy is called, or without an answer when all copies have been destroyed.
 class Ticket {
  public:
   Ticket(std::shared_ptr<Mailbox> mailbox, std::shared_ptr<Letter> letter)

@@ -20,13 +20,15 @@ class Answered {
 
 struct Letter;
 
-/// Queue of answers for the thread of one server. Each Reply shares its ownership, so it may outlive the server.
+/// Queue of answers for the thread of one server. Each Reply shares the ownership of the queue, so the queue may
+/// outlive the server.
 class Mailbox {
  public:
   explicit Mailbox(boost::asio::io_context& context) : context_(&context) {}
-  /// Letters that are posted after this call are discarded.
+  /// Closes the queue: answers that are posted after this call are discarded.
   void close();
-  /// Queues a letter for the server's thread. Allocates no memory, since a failure would let the client wait forever.
+  /// Queues a letter (an answer and its receiver) for the server's thread. Allocates no memory, since a failure would
+  /// let the client wait forever.
   void post(std::shared_ptr<Letter> letter) noexcept;
 
  private:

@@ -20,14 +20,15 @@ class RequestReader {
  public:
   enum class Event {
     starved,  ///< all bytes have been consumed, and more are needed
-    head,     ///< request() is valid; before next(), the caller must call allow() to get the body, or finish()
+    head,     ///< request() is valid; before it calls next() again, the caller may call allow() to get a body, or
+              ///< finish()
     go_on,    ///< the client waits for a 100 (Continue) before it sends the body
     piece,    ///< piece() is the next piece of the body, not empty
     end,      ///< the request is complete; next() continues with the next request
     refused,  ///< refusal() is the problem; no other events follow
   };
 
-  /// gone: flag that every request gets as Request::gone.
+  /// gone: flag that every request gets as Request::gone; may be null.
   explicit RequestReader(const ReaderLimits& limits, std::shared_ptr<const std::atomic<bool>> gone = nullptr)
       : scanner_(limits), gone_(std::move(gone)) {}
 
@@ -37,8 +38,9 @@ class RequestReader {
 
   /// The current request; valid from Event::head to Event::end.
   const Request& request() const { return head_.request; }
-  /// Sets the maximum size of the body in bytes; may be called after Event::head. Without a call, the maximum is 0.
-  /// next() then rejects a body that is larger, has a Content-Encoding, or has no known length (POST, PUT, PATCH).
+  /// Sets the maximum size of the body in bytes; may be called after Event::head. Without this call, the maximum is 0.
+  /// The following call of next() rejects the request if its body is too large or has a Content-Encoding, or if a POST,
+  /// PUT or PATCH request does not state the length of its body.
   void allow(uint64_t max_bytes) { max_bytes_ = max_bytes; }
   /// May be called after Event::head, instead of allow(), if a request without a body has already been answered. next()
   /// then continues with the next request.

@@ -50,9 +50,10 @@ namespace {
 namespace net = boost::asio;
 using Tcp = net::ip::tcp;
 
-/// Maximum number of surplus clients that concurrently get a 503. Further clients are closed without an answer.
+/// Number of surplus clients that may concurrently get a 503: an eighth of ServerSettings::connections, but never more
+/// than this constant. The connections of further clients are closed without an answer.
 constexpr size_t kMaxTurnedAway = 64;
-/// Lower bound for the number of surplus clients, which is also limited to an eighth of all connections.
+/// At least this many surplus clients may concurrently get a 503, even if an eighth of the connections is less.
 constexpr size_t kMinTurnedAway = 8;
 
 size_t maxTurnedAway(size_t connections) { return std::clamp(connections / 8, kMinTurnedAway, kMaxTurnedAway); }
@@ -154,8 +155,9 @@ Result<void> LoopServer::run() {
   return {};
 }
 
-/// Runs the event loop until the server stops, or until an event handler throws because memory has run out. The caller
-/// then calls turn() again, and the connections continue. If accept() could not be started, turn() tries it again.
+/// Runs the event loop until the server stops, or until an event handler throws because memory has run out. After such
+/// an exception, the caller calls turn() again, and the connections continue. If no accept() is pending, because
+/// starting it failed, turn() soon tries to start it again.
 void LoopServer::turn() try {
   if (accepting_) {
     loop_.context.run();

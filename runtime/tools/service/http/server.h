@@ -19,8 +19,8 @@ struct ServerSettings {
   /// Maximum number of concurrent connections; further clients get a 503. If the process has no file descriptor left,
   /// further clients are closed without an answer.
   uint32_t connections = 2048;
-  size_t line_bytes = 8192;   ///< limit of the request line and of each header
-  size_t head_bytes = 32768;  ///< limit of a request's head
+  size_t line_bytes = 8192;   ///< maximum length in bytes of the request line and of each header
+  size_t head_bytes = 32768;  ///< maximum size in bytes of a request's head (request line and all headers)
   size_t fields = 64;
   std::chrono::milliseconds head_time{10000};  ///< maximum time from the first byte of a head to its end
   std::chrono::milliseconds body_time{30000};  ///< maximum time from the end of the head to the end of the body
@@ -28,9 +28,9 @@ struct ServerSettings {
   std::chrono::milliseconds idle_time{15000};
   std::chrono::milliseconds work_time{600000};  ///< maximum time for the handler to answer; the client then gets a 503
   std::chrono::milliseconds write_time{30000};  ///< maximum time for a client to receive its answer
-  /// Limit of the memory of all answers that clients have not received yet. A body that several answers share counts
-  /// once; bodies below 4 KiB do not count. An answer that would exceed the limit is replaced by a 503, unless no other
-  /// body is counted.
+  /// Limit in bytes of the memory of all answers that clients have not received yet. A body that several answers share
+  /// counts once; bodies below 4 KiB do not count. An answer that would exceed the limit is replaced by a 503. A single
+  /// body of any size is accepted if no other body is counted.
   uint64_t unsent_bytes = uint64_t{64} << 20;
   /// Time for the client to close the connection after the last answer. Meanwhile the server reads and discards up to
   /// drain_bytes. If the server closed the connection at once, the client would see a reset instead of the answer.
@@ -63,7 +63,8 @@ class Server {
   /// Thread-safe, and does not block the server's thread.
   virtual ServerCounts counts() const = 0;
   /// Stops listening, waits up to `grace` until all requests whose head has arrived are answered, and closes all
-  /// connections. Blocks. Replies after that have no effect. Must not be called on the server's own thread.
+  /// connections. Blocks. A Reply that is called after stop() has no effect. Must not be called on the server's own
+  /// thread.
   virtual void stop(std::chrono::milliseconds grace) = 0;
 };
 

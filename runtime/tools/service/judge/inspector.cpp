@@ -77,7 +77,7 @@ class ProcessInspector final : public Inspector {
     std::function<void()> began;
     std::function<void(Inspection)> done;
     Inspection out_of_memory;  ///< answer for the case that memory runs out; made in advance
-    bool stopped = false;      ///< whether the inspector is ending, so that the upload is not inspected
+    bool stopped = false;      ///< true if the inspector is ending: the upload then gets a 503 instead of an inspection
   };
   struct MastersJob {
     std::string json;
@@ -96,15 +96,15 @@ class ProcessInspector final : public Inspector {
   void run(Job& job);
   Inspection judge(const Upload& upload) const;
   Inspection judgeMasters(const MastersJob& job) const;
-  /// Runs a process with these arguments and this standard input, and returns its answer. text: the input, if it is a
-  /// pipe.
+  /// Runs a process with these arguments, and returns its answer. input: the process's standard input. text: if `input`
+  /// is a pipe, the text that is written to it.
   Inspection answerTo(std::vector<std::string> arguments, platform::Stream input, std::string_view text,
                       Answer wanted) const;
   void count(const Inspection& said, double seconds);
 
   const InspectorSettings settings_;
   const std::vector<std::string> environment_;
-  /// Requested by the destructor; wakes the threads that wait for a process.
+  /// The destructor requests this cancellation to wake the threads that wait for a process.
   platform::Cancellation stop_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -239,7 +239,8 @@ void ProcessInspector::workOnMasters() {
     call(job->done, saidOr(job->out_of_memory, [&] { return job->stopped ? stoppedProblem() : judgeMasters(*job); }));
 }
 
-/// Adds a finished inspection to the counts. Called before `done`, so that a client with an answer finds it counted.
+/// Adds a finished inspection to the counts. Called before `done`: when a client has the answer, the counts already
+/// include it.
 void ProcessInspector::count(const Inspection& said, double seconds) {
   const std::lock_guard lock(mutex_);
   --counts_.running;

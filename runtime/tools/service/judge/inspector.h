@@ -58,13 +58,14 @@ class Inspector {
   /// Whether inspect() would accept an upload now. Errors: unsupported if the program is missing or not executable;
   /// limit if the queue is full.
   virtual Result<void> wouldTake() const = 0;
-  /// Queues an upload. `began` and then `done` are each called once, on a thread of the inspector. If the inspector
-  /// ends first, only `done` is called. Exceptions that they throw are ignored. Errors: those of wouldTake(), and limit
-  /// if memory has run out; after an error, neither function is called.
+  /// Queues an upload. A thread of the inspector first calls `began`, when the inspection starts, and then `done`, each
+  /// once. If the inspector ends before the inspection starts, only `done` is called. Exceptions that they throw are
+  /// ignored. Errors: those of wouldTake(), and limit if memory has run out; after an error, neither function is
+  /// called.
   virtual Result<void> inspect(Upload upload, std::function<void()> began, std::function<void(Inspection)> done) = 0;
   /// Reads or replaces the reference histograms in a process (GET and PUT /api/v1/masters). `done` receives a status
   /// and JSON as in Inspection; the status is 409 if no writable file is configured. These requests have a queue of
-  /// their own, from which one thread processes one at a time. If that queue is full, `done` receives a 503
+  /// their own, which one thread processes: one request after another. If that queue is full, `done` receives a 503
   /// immediately.
   virtual void readMasters(std::function<void(Inspection)> done) = 0;
   virtual void writeMasters(std::string json, std::function<void(Inspection)> done) = 0;

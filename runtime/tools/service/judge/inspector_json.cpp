@@ -42,7 +42,7 @@ size_t behindString(std::string_view text, size_t at) {
   return std::min(at + 1, text.size());
 }
 
-/// The offset behind the value that begins at `at`: that of the next comma or closing bracket.
+/// The offset behind the value that begins at `at`: the offset of the comma or closing bracket that follows the value.
 size_t behindValue(std::string_view text, size_t at) {
   for (size_t depth = 0; at < text.size();) {
     const char c = text[at];

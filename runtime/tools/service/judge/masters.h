@@ -28,7 +28,7 @@ class Masters {
   explicit Masters(Inspector& inspector) : inspector_(inspector) {}
 
   void read(Told told);
-  /// Replaces the reference histograms by those in `json`, completely or not at all.
+  /// Replaces the reference histograms by those in `json`: either all of them or, after an error, none.
   void write(std::string json, Told told);
 
   /// The most recent result of reading, or of a successful write(); its status is 0 before the first result.
@@ -43,7 +43,7 @@ class Masters {
   mutable std::mutex mutex_;
   MastersAnswer last_{0, nullptr};
   std::chrono::steady_clock::time_point when_;
-  std::vector<Told> waiting_;  ///< callers that wait for the process that reads the histograms
+  std::vector<Told> waiting_;  ///< callbacks of callers that wait for the process that reads the histograms
 };
 
 }  // namespace sgm::service

@@ -233,7 +233,7 @@ std::string Reports::finish(const std::string& id, Inspection inspection) {
       if (found == kept_->reports.end()) return {};
       report = *found;
     }
-    // Done without the lock, because it takes some milliseconds.
+    // Fill the report without holding the lock, because this takes some milliseconds.
     fill(report, std::move(inspection));
     report.out_of_memory = {};
     std::string text = report.text;

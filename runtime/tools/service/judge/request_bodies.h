@@ -21,7 +21,7 @@ struct IncomingRoom {
   uint64_t most = 0;
 };
 
-/// The part of an IncomingRoom that one body uses. The destructor gives it back. Move-only.
+/// The bytes of an IncomingRoom that one body uses. The destructor gives these bytes back. Move-only.
 class IncomingShare {
  public:
   explicit IncomingShare(std::shared_ptr<IncomingRoom> room) : room_(std::move(room)) {}

@@ -17,8 +17,8 @@ namespace sgm::service {
 enum class UploadKind { glb, obj, ply, stl, grammar };
 /// Name of an upload's kind: "glb", "obj", "ply", "stl" or "sgm".
 std::string_view nameOf(UploadKind kind);
-/// The kind of an upload, from its content type. If that is empty or application/octet-stream, from the extension of
-/// its file name. nullopt if unknown.
+/// The kind of an upload. The content type determines it or, if the content type is empty or application/octet-stream,
+/// the extension of the file name. nullopt if the kind is unknown.
 std::optional<UploadKind> uploadKind(std::string_view content_type, std::string_view name);
 
 /// A file without a name; the system deletes it when its last descriptor is closed. Move-only.

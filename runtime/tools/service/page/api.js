@@ -22,7 +22,7 @@ function problemOf(status, text) {
     const body = JSON.parse(text);
     if (body && typeof body === 'object' && !Array.isArray(body)) return new Problem(status, body);
   } catch {
-    // The answer is not from the service, but perhaps from a proxy.
+    // The answer is not JSON: perhaps it comes from a proxy, not from the service.
   }
   return new Problem(status, { detail: `the service answered ${status} without saying why` });
 }
@@ -40,7 +40,7 @@ export class Api {
     this.#askToken = askToken;
   }
 
-  /** If the user has declined to enter a token, lets the next request ask again. */
+  /** Lets the next request ask the user for a token again, even if the user has declined to enter a token before. */
   askAgain() {
     this.#declined = false;
   }

@@ -3,8 +3,8 @@
 import { svg } from './element.js';
 
 /**
- * title: shown name. colour: class of the mark. sign: shape of the mark. edge: whether the mesh view marks the affected
- * edges with lines.
+ * title: shown name. colour: CSS class that gives the mark its colour. sign: shape of the mark. edge: whether the mesh
+ * view marks the affected edges with lines.
  */
 export const defectKinds = {
   open_edge: { title: 'open edge', colour: 'mark-0', sign: 'circle', edge: true },

@@ -13,8 +13,8 @@ function build(node, options, children) {
 }
 
 /**
- * Makes an HTML element. options: attributes by name, and also `text`, the content, and `on`, {event: listener}.
- * Attributes that are null or false are omitted.
+ * Makes an HTML element. options: the element's attributes by name; in addition, `text`: the text content, and `on`:
+ * event listeners, {event: listener}. Attributes that are null or false are omitted.
  */
 export function element(tag, options = {}, ...children) {
   return build(document.createElement(tag), options, children);

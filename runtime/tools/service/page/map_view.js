@@ -243,7 +243,7 @@ export class MapView {
       context.lineTo(-9, 9);
       context.closePath();
     } else {
-      context.beginPath(); // the viewer looks straight up or down
+      context.beginPath(); // the viewer looks straight up or down: draw a circle instead of an arrow
       context.arc(0, 0, 8, 0, 2 * Math.PI);
     }
     context.stroke();

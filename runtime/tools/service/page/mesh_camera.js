@@ -43,7 +43,10 @@ export class Camera {
     };
   }
 
-  /** Moves the camera to a view between `from` and `to`, as from closeTo(). part: 0 to 1. */
+  /**
+   * Moves the camera to a view between the views `from` and `to`. Views: as closeTo() returns them. part: 0 (`from`) to
+   * 1 (`to`).
+   */
   between(from, to, part) {
     const mix = (a, b) => a + (b - a) * part;
     const turn = Math.atan2(Math.sin(to.yaw - from.yaw), Math.cos(to.yaw - from.yaw));

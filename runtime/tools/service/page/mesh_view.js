@@ -1,4 +1,5 @@
-// The 3D view of an uploaded mesh, with marks at its defects. It turns by itself, or by the pointer or keys.
+// The 3D view of an uploaded mesh, with marks at its defects. The view turns by itself; the user can also turn it with
+// the pointer or keys.
 
 import { datum, element, reducedMotion, svg } from './element.js';
 import { count, counted } from './format.js';
@@ -16,8 +17,8 @@ const slow = 120;
 const channels = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
 
 /**
- * Lines along the edges with defects, by kind of defect. Only for kinds that the report counts; none if the preview is
- * not the whole mesh.
+ * Lines along the edges with defects, for each kind of defect. A kind has no lines if the report counts no such defect.
+ * No kind has lines if the preview is a simplified mesh or a region's border cuts the mesh.
  */
 function markedEdges(mesh, report) {
   const { preview, measures } = report;
@@ -149,7 +150,7 @@ export class MeshView {
   }
 
   #lost() {
-    if (this.#observers.length === 0) return; // ignore the event if dispose() has released the context intentionally
+    if (this.#observers.length === 0) return; // dispose() has released the context intentionally: ignore the event
     this.#useRenderer(true);
     this.#ask();
   }
@@ -237,7 +238,7 @@ export class MeshView {
     });
     const resized = new ResizeObserver(() => this.#ask());
     resized.observe(frame);
-    // On a busy machine one call reports several changes: the last one holds.
+    // On a busy machine one call reports several changes: use the last change.
     const seen = new IntersectionObserver((changes) => {
       this.#shown = changes.at(-1).isIntersecting;
       this.#ask();

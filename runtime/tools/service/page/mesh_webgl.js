@@ -62,7 +62,10 @@ function buffer(gl, values) {
   return made;
 }
 
-/** Copies the vertices for each triangle: with flat shading, a vertex needs the normal of its own triangle. */
+/**
+ * Gives each triangle its own copies of its vertices. Flat shading needs them: a vertex then has the normal of its
+ * triangle.
+ */
 function unrolled({ positions, normals, indices }, faceNormal) {
   const corners = new Float32Array(3 * indices.length),
     smooth = new Float32Array(3 * indices.length);

@@ -1,4 +1,4 @@
-// The list of all reports that the service stores, from all clients.
+// The list of all reports that the service stores, of all clients' uploads.
 
 import { element, verdict } from './element.js';
 import { bytes, clock, duration, nothing } from './format.js';

@@ -34,9 +34,9 @@ export class TimeChart {
 
   /**
    * series: [{key, label}], key: name of the value in a sample. format(value): text of a value with its unit.
-   * axis(top): returns {name, size}, the axis's unit if its highest value is top. least: minimum for the end of the
-   * axis. limit: name of a value in a sample, drawn as a bound if the other values come near it. note(sample): returns
-   * an additional line of text.
+   * axis(top): returns the unit {name, size} for an axis whose highest value is `top`. least: minimum for the end of
+   * the axis. limit: name of a value in a sample, drawn as a bound if the other values come near it. note(sample):
+   * returns an additional line of text.
    */
   constructor({ title, series, format, axis, least = 1, limit = null, note = null }) {
     this.#series = series;

@@ -19,7 +19,8 @@ const pause = (milliseconds) =>
   });
 
 /**
- * Shortens a file name to the 255 bytes of UTF-8 that the service accepts. It keeps the end, because of the extension.
+ * Shortens a file name to the 255 bytes of UTF-8 that the service accepts. The end of the name is kept, because it
+ * contains the extension.
  */
 function shortName(name) {
   let kept = name;

@@ -5,7 +5,7 @@ import { bytes, count, counted, nothing, number, percent } from './format.js';
 import { measureColumns, measureRow, sliverRow, table } from './table.js';
 
 const frame_ms = 1000 / 60;
-/** Limit for the main thread's time in the runtime, in milliseconds, that 99 % of the updates should keep. */
+/** In milliseconds: 99 % of the world's updates should take less than this time of the main thread. */
 const p99_limit_ms = 2;
 
 function facts(world) {

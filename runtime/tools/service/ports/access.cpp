@@ -56,7 +56,8 @@ std::string_view nameOf(std::string_view host) {
   return rest.empty() || port ? name : std::string_view{};
 }
 
-/// Compares two secrets in constant time, so that the time does not reveal where they differ.
+/// Compares two secrets. The time does not depend on where they differ, so a client cannot find out a secret by
+/// measuring times.
 bool equalInSecret(std::string_view a, std::string_view b) {
   unsigned difference = a.size() == b.size() ? 0 : 1;
   for (size_t i = 0; i < a.size(); ++i)

@@ -24,7 +24,8 @@ bool isLoopback(std::string_view address);
 class Access {
  public:
   /// Error: invalid_argument if the address is not numeric, if there is no token and the address is not loopback, if
-  /// the token has fewer than 16 characters or others than letters, digits and -._~+/=, or if a host name is invalid.
+  /// the token has fewer than 16 characters or contains other characters than letters, digits and -._~+/=, or if a host
+  /// name is invalid.
   static Result<Access> create(const AccessSettings& settings);
 
   /// The answer to a forbidden request; nullopt if the request is allowed. 421 for an unknown Host, to prevent DNS

@@ -36,8 +36,8 @@ Operations::Operations(OperationsParts parts)
 http::Admission Operations::admit(const http::Request& request) {
   http::Admission admission;
   std::variant<Routed, http::Response> found = routed(kOperationsRoutes, request);
-  // Allow health probes without a Host header: HTTP/1.0 probes send none, but every browser does, so no foreign page
-  // can omit it.
+  // Allow health probes without a Host header, since HTTP/1.0 probes send none. This is safe: every browser sends a
+  // Host header, so a page of another site cannot omit it.
   const bool probe = !request.field("Host") && !request.field("Origin") && std::holds_alternative<Routed>(found) &&
                      std::get<Routed>(found).route->endpoint != metrics;
   if (!probe) admission.refusal = parts_.access.refuse(request);

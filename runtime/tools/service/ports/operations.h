@@ -16,7 +16,7 @@ namespace sgm::service {
 struct Check {
   std::string name;
   bool ok = true;
-  bool needed = false;  ///< whether the service is not ready if ok is false; otherwise it is only degraded
+  bool needed = false;  ///< if true, the service is not ready while ok is false; otherwise it is only degraded
   std::string detail;
 };
 

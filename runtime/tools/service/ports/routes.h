@@ -16,12 +16,14 @@ namespace sgm::service {
 struct Route {
   std::string_view path;     ///< path pattern; a segment in braces matches any segment: "/api/v1/reports/{id}"
   std::string_view methods;  ///< allowed methods in the format of the header Allow: "GET, HEAD"
-  int endpoint = 0;          ///< endpoint that handles the route, a number that the owner of the table chooses
+  /// number of the endpoint that handles the route; the owner of the route table chooses these numbers
+  int endpoint = 0;
 };
 
 struct Routed {
   const Route* route = nullptr;
-  std::vector<std::string> values;  ///< segments of the request's path that match segments in braces, in order
+  std::vector<std::string> values;  ///< the segments of the request's path that match segments in braces, in the order
+                                    ///< of the path
 };
 
 /// The first route that matches a request. If there is none, the answer: 404, or 405 with the header Allow.

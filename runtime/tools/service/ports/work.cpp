@@ -51,8 +51,8 @@ const EmbeddedFile* fileNamed(std::string_view name) {
   return nullptr;
 }
 
-/// The embedded file of the web page for this path; null if there is none. The description of the HTTP interface is
-/// embedded too, but does not belong to the page.
+/// Returns the embedded file of the web page for this path; null if there is none. Also null for the description of the
+/// HTTP interface, which is embedded too, but does not belong to the page.
 const EmbeddedFile* pageFile(std::string_view path) {
   const std::string_view name = path == "/" ? "index.html" : path.substr(1);
   return name.ends_with(".json") ? nullptr : fileNamed(name);

@@ -90,8 +90,8 @@ void addChunks(Families& all, const WorldSample& world, const Labels& backend) {
   all.counter(kBuilt, kBuiltHelp, with("result", "cached"), cached);
   all.counter(kBuilt, kBuiltHelp, with("result", "failed"), stats.chunks_failed);
   all.counter(kBuilt, kBuiltHelp, with("result", "in_vain"), stats.chunks_in_vain);
-  // Write all levels from the first scrape on, even if 0: Prometheus then sees the first chunks of a level as an
-  // increase.
+  // Write a value for every level from the first scrape on, even if it is 0. Otherwise, a level's series would begin
+  // with its first chunks, and Prometheus would not count these as an increase.
   const int top = std::clamp(world.info.top_level, 0, SGM_MAX_LEVEL);
   for (int level = 0; level <= top; ++level) {
     all.histogram("sgm_chunk_build_seconds", "Time to make a chunk's body, from the grammar to its packed mesh.",

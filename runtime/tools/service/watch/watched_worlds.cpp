@@ -79,7 +79,7 @@ class DrawnMeshes {
   size_t held_ = 0;
 };
 
-/// Number of triangles in the chunk's body and in those of its seams that are drawn.
+/// Number of triangles in the chunk's body and in its drawn seams.
 uint32_t trianglesOf(const sgm_drawn_chunk& chunk) {
   sgm_mesh_view view = SGM_MESH_VIEW_INIT;
   if (sgm_mesh_get_view(chunk.mesh, &view, nullptr) != SGM_OK) return 0;
@@ -151,8 +151,8 @@ class WatchedWorld {
     const double seconds = std::chrono::duration<double>(last.taken - first.taken).count();
     if (seconds > 0) now.chunks_per_second = static_cast<double>(last.meshed - first.meshed) / seconds;
     const double worked = last.clock_seconds - first.clock_seconds;
-    // If no work was done since the oldest kept sample, keep the previous value; if there is none, use all work since
-    // the start.
+    // If no work was done since the oldest kept sample, keep the previous value; if there is no previous value, use all
+    // work since the start.
     if (worked > 0) {
       speedup_ = (last.job_seconds - first.job_seconds) / worked;
     } else if (!speedup_ && last.clock_seconds > 0) {

@@ -19,15 +19,16 @@ namespace sgm::service {
 struct WorldSample {
   std::string name;
   sgm_world_info info = SGM_WORLD_INFO_INIT;  ///< constant properties of the world: backend, cell size, limits
-  /// counters of the world; chunks_in_vain is its maximum over all samples, so that it never decreases
+  /// counters of the world; chunks_in_vain is the maximum of its values in all samples so far, so that it never
+  /// decreases
   sgm_world_stats stats = SGM_WORLD_STATS_INIT;
   sgm_world_times times = SGM_WORLD_TIMES_INIT;  ///< histograms of durations
   std::optional<sgm_world_measures> measures;    ///< measures of the chunks' meshes; only for worlds created with
                                                  ///< SGM_WORLD_MEASURE
   std::vector<sgm_viewer> viewers;
-  double chunks_per_second = 0;  ///< number of chunks per second that were meshed or read, over the last seconds
-  /// Mean number of meshing jobs that ran concurrently, over those of the last seconds in which jobs ran; at most the
-  /// number of the world's threads. nullopt before the first job.
+  double chunks_per_second = 0;  ///< number of chunks per second that were meshed or read; mean over the last seconds
+  /// Mean number of meshing jobs that ran concurrently. The mean covers the time in the last seconds during which at
+  /// least one job ran. It is at most the number of the world's threads; nullopt before the first job.
   std::optional<double> parallel_speedup;
   std::chrono::steady_clock::time_point taken;
 };

@@ -21,7 +21,7 @@ namespace sgm::cli {
 /// The arguments of the command line, without the program's name.
 using Words = std::vector<std::string>;
 
-/// The function that runs a command. It may take the command line's arguments as a parameter, or none.
+/// The function that runs a command. It takes the arguments of the command line as its parameter, or has no parameter.
 class Command {
  public:
   template <std::invocable Run>

@@ -18,8 +18,8 @@
 namespace sgm::cli {
 namespace {
 
-/// The message for a usage error. If a word stands in place of a command but is not one, the message suggests commands;
-/// otherwise it is CLI11's own.
+/// The message for a usage error. If the word in the place of a command is not the name of a command, the message
+/// suggests the most similar command. Otherwise the message is CLI11's own.
 std::string errorTextOf(const CLI::App& root, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<const CLI::App*> commands = root.get_subcommands(nullptr);
   for (int i = 1; i < argc && !commands.empty() && argv[i][0] != '-'; ++i) {
@@ -32,7 +32,7 @@ std::string errorTextOf(const CLI::App& root, const CLI::ParseError& error, int 
     Suggestion suggestion(word);
     std::string all;
     for (const CLI::App* command : commands) {
-      if (command->get_group().empty()) continue;  // not listed in --help, so not suggested
+      if (command->get_group().empty()) continue;  // a command that --help does not list is not suggested either
       suggestion.offer(command->get_name());
       all += (all.empty() ? "" : ", ") + command->get_name();
     }
@@ -56,7 +56,8 @@ Exit runCommandLine(int argc, char** argv) {
   std::vector<Command> commands;
   for (const AddCommand add : commandsToAdd()) commands.push_back(add(app));
 
-  // Checked before CLI11 parses the command line: it would answer `sgm bake --help` with the help of sgm itself.
+  // Check for commands that this build lacks before CLI11 parses the command line: CLI11 would answer `sgm bake --help`
+  // with the help of sgm itself.
   if (argc > 1 && std::ranges::count(commandsLeftOut(), std::string_view(argv[1])) > 0) {
     return reportError(Exit::usage,
                        fmt::format("this build of sgm leaves out '{}': configure it with SGM_TOOLS=all (cmake "

@@ -15,8 +15,8 @@ namespace sgm::cli {
 /// is an error.
 void addFlightServing(CLI::App& app, FlyOptions& options);
 
-/// Adds the options of the metrics service, from --listen to --waiting. needs: an option without which using them is an
-/// error; null if there is none.
+/// Adds the options of the metrics service, from --listen to --waiting. needs: the option that must be given too when
+/// one of these options is given; null if there is none.
 void addServingOptions(CLI::App& app, ServingOptions& options, CLI::Option* needs);
 
 }  // namespace sgm::cli
