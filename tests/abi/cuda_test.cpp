@@ -202,8 +202,8 @@ TEST_CASE("a context that cannot be lent is refused, for a reason, and changes n
   refused(SGM_ERR_INVALID_ARGUMENT, "context", [](auto& d) { d.context = nullptr; });
   refused(SGM_ERR_INVALID_ARGUMENT, "CU_STREAM_PER_THREAD",
           [](auto& d) { d.stream = reinterpret_cast<CUstream_st*>(uintptr_t{2}); });
-  // If the backend was only queried, not used, the engine's context may still replace it; SGM_BACKEND_AUTO then uses
-  // that context, too.
+  // A query does not count as use of the backend: the engine may still provide its context. Then SGM_BACKEND_AUTO uses
+  // this context, too.
   CHECK(infoOf(runtime, SGM_BACKEND_AUTO).backend == SGM_BACKEND_CUDA);
   REQUIRE(sgm_runtime_lend_cuda(runtime.get(), &good, nullptr) == SGM_OK);
   refused(SGM_ERR_BUSY, "already has a CUDA device", [](auto&) {});

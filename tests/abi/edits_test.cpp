@@ -229,8 +229,8 @@ TEST_CASE("a journal and a folder of chunks outlast the world", "[threads]") {
     if (SGM_TEST_DISK_CACHE) CHECK((statsOf(world.get()).cache_hits > 0) == again);
     sgm_error error = SGM_ERROR_INIT;
     sgm_world* second = nullptr;
-    CHECK(sgm_world_create(field.get(), &desc, &second, &error) == SGM_ERR_LIMIT);  // creation fails: the first world
-                                                                                    // still uses the journal
+    // refused: the first world still uses the journal
+    CHECK(sgm_world_create(field.get(), &desc, &second, &error) == SGM_ERR_LIMIT);
   }
   // A journal belongs to one world: a world with another seed is refused.
   const RuntimeOwner runtime = makeRuntime();

@@ -198,7 +198,8 @@ class CarelessEngine {
   std::mt19937 random_;
   std::map<ChunkId, sgm_mesh*> meshes_;
   std::map<ChunkId, sgm_collider*> colliders_;
-  std::deque<std::function<sgm_result()>> ended_;  ///< destroy calls to repeat, the most recent first
+  std::deque<std::function<sgm_result()>> ended_;  ///< calls that destroy an already destroyed handle once more; those
+                                                   ///< for the handles destroyed last come first
   size_t wrong_ = 0;
 };
 
@@ -299,7 +300,8 @@ TEST_CASE("owners are counted, and a handle has ended once none is left, in any 
           }
         }
         std::erase_if(known, forgotten);
-        // Release the oldest destroyed handle that the library still recognises as destroyed.
+        // The library recognises a limited number of destroyed handles. Also release a second time the oldest of those
+        // that it still recognises.
         for (Known& k : known)
           if (k.owners == 0 && ended - k.ended == kRemembered - 1) release(k);
       }

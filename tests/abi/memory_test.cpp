@@ -186,8 +186,8 @@ TEST_CASE("each allocation of the C++ heap on any thread fails in turn") {
 }
 
 TEST_CASE("threads that mesh a grid together end together, whichever of them has no memory") {
-  // Layers of samples so large that a slab has only four of them: there are more slabs than threads, and the ball
-  // extends into all of them.
+  // A slab is the part of the grid that one thread meshes at a time. The layers of samples are so large here that a
+  // slab has only four of them, so there are more slabs than threads. The ball extends into every slab.
   constexpr size_t kX = 512, kY = 256, kZ = 18;
   constexpr size_t kCount = kX * kY * kZ;
   const std::unique_ptr<float, void (*)(void*)> values(static_cast<float*>(std::malloc(kCount * sizeof(float))),

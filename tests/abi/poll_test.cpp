@@ -1,4 +1,4 @@
-// Tests polling a world's events when memory runs out in the middle of it.
+// Tests polling a world's events when memory runs out in the middle of a poll.
 
 #include <array>
 #include <map>

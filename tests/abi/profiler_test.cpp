@@ -66,7 +66,7 @@ class ZoneRecord {
     ++counts[zone];
     ++within[{stack.empty() ? "" : stack.back().name, zone}];
     pointers[zone].insert(zone);
-    // Return a different value each time, of which every bit must be passed back to end().
+    // Return a different value each time; the library must pass every bit of it back to end().
     next_ = next_ * 6364136223846793005u + 1442695040888963407u;
     stack.push_back({zone, next_});
     return next_;

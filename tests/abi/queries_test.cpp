@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Returns the point that a query writes: call(point, error).
+/// Calls the query `call(point, error)`, which must succeed, and returns the point that it writes.
 template <class Call>
 sgm_surface_point answered(const Call& call) {
   sgm_surface_point point = SGM_SURFACE_POINT_INIT;
@@ -115,7 +115,8 @@ TEST_CASE(
   CHECK(way.length > 7.5);
   CHECK(way.length < 16);
   CHECK(way.from_clearance == Approx(0.75).margin(0.26));
-  CHECK(way.widest == way.from_clearance);  // the clearance is smallest at an end of the path, not within it
+  // the widest agent is limited by the clearance at an end of the path, not by a narrow place within the path
+  CHECK(way.widest == way.from_clearance);
   CHECK(way.void_count == 1);
   CHECK(way.sealed_count == 0);
   CHECK(way.from_volume == way.largest_volume);
@@ -184,8 +185,8 @@ TEST_CASE("the radius that a way is widest for has none, and the number before i
 
 namespace {
 
-/// Records the calls of a progress callback. runs: for each run of calls that begins with done == 1, the last `done`
-/// and the total.
+/// Records the calls of a progress callback. A run of calls begins with a call in which `done` is 1. runs: for each
+/// run, the last `done` and the total.
 struct Told {
   std::vector<std::array<uint64_t, 2>> runs;
   size_t calls = 0, stop_at = 0;  ///< number of calls so far; number of the call that cancels the work (0: none)

@@ -12,7 +12,8 @@ inline constexpr const char* kLumps =
     "sgm 1; units m; domain infinite;\nlayer l cell 16m reach 8m detail 1m { start Lump; }\n"
     "rule Lump { at(8m, 8m, 8m) { scatter 5 on disc(4m) sphere(rand(1m, 3m)); } }\n";
 
-/// Waits until the device is ready. Without this, a streamed world would not wait, but mesh on the CPU.
+/// Waits until the device is ready. A streamed world does not wait for the device by itself, but meshes on the CPU
+/// meanwhile.
 inline void makeReady(sgm_field* field) {
   std::vector<sgm_chunk_request> requests;
   for (int level = 0; level < 4; ++level) {
@@ -76,9 +77,9 @@ void wanderBeside(sgm_field* field, const char* text, const Check& check) {
   }
 }
 
-/// Checks that meshes of a field on the CPU have no view in device memory, and that each call reports that. lend: name
-/// of the function by which an engine would provide its device. getView: fills a view, which is initialised from
-/// `init`. isEmpty(view): whether the view refers to no memory.
+/// Checks that the meshes of a field on the CPU have no view in device memory, and that each call which asks for device
+/// memory returns the right error. lend: name of the function by which an engine would provide its device. getView:
+/// fills a view, which is initialised from `init`. isEmpty(view): whether the view refers to no memory.
 template <class View, class GetView, class IsEmpty>
 void checkNothingBorrowed(sgm_field* on_cpu, const char* lend, const View& init, GetView getView, IsEmpty isEmpty) {
   sgm_world_desc desc = SGM_WORLD_DESC_INIT;

@@ -1,5 +1,5 @@
-// Tests an engine that draws with Vulkan the meshes that CUDA makes; its Vulkan device has external memory. With
-// LD_LIBRARY_PATH set, libcuda.so.1 is a simulated driver whose GPU stands for the Vulkan device's.
+// Tests an engine whose Vulkan device draws the meshes that CUDA makes, through external memory. With LD_LIBRARY_PATH
+// set, libcuda.so.1 is a simulated driver, whose GPU poses as the Vulkan device.
 
 #include <chrono>
 #include <cstdlib>
@@ -20,7 +20,7 @@ extern "C" const char* __lsan_default_suppressions(void) { return "leak:libVkLay
 
 namespace {
 
-/// Makes the simulated CUDA GPU the same as the Vulkan device, and counts the memory that is imported.
+/// Lets the simulated CUDA GPU pose as the Vulkan device, and counts the memory that is imported.
 class OneGpu {
  public:
   explicit OneGpu(const Lender& lender) : state_(pretendedGpu()), before_(state_.imports + state_.mapped) {
@@ -180,7 +180,8 @@ TEST_CASE("an engine without a lock has both backends on its queue at once", "[s
     for (const WorldOwner& world : worlds) look(world.get(), x, 0);
     for (const WorldOwner& world : worlds) REQUIRE(sgm_world_update(world.get(), 1 << 20, nullptr) == SGM_OK);
     for (const WorldOwner& world : worlds) waitIdle(world.get());
-    // The engine uses its queue only here, where no world submits work to it.
+    // At this point no world submits work to the engine's queue. So the engine may use the queue itself, which it does
+    // only here.
     for (const WorldOwner& world : worlds) {
       size_t triangles = 0;
       for (const MeshOwner& mesh : drawnOf(world.get())) triangles += checkMesh(lender, mesh);
@@ -206,7 +207,8 @@ TEST_CASE("where CUDA is lost, or must be opened again, all meshes are right whe
   double x = 0;
   for (const char* call : {"launchKernel", "memcpyDtoDAsync", "eventSynchronize", "importExternalMemory"}) {
     CAPTURE(call);
-    // A later import happens only after a loss of the device, so cause a loss first.
+    // importExternalMemory is called again only after a loss of the device. So to make it fail, first let another call
+    // fail, which loses the device.
     const bool opening = std::strcmp(call, "importExternalMemory") == 0;
     gpu.state().fail_call = opening ? "launchKernel" : call;
     gpu.state().fail_nth = 1 + static_cast<unsigned>(random() % 3);

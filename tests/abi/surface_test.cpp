@@ -143,7 +143,7 @@ TEST_CASE("regions and chunks have sharp features where they are asked for") {
       compile(runtime.get(),
               "sgm 1; units m; start Box; rule Box { at(4m, 4m, 4m) rot(y, 30deg) rot(x, 20deg) box(4m, 4m, 4m); }");
   const FieldOwner field = makeField(runtime.get(), grammar.get());
-  // Returns the distance of the farthest vertex from the middle, which is a corner of the box.
+  // Returns the distance from the box's middle to the farthest vertex, which lies at a corner of the box.
   const auto farthest = [&](uint32_t flags) {
     sgm_region_desc desc = SGM_REGION_DESC_INIT;
     for (int axis = 0; axis < 3; ++axis) desc.maximum[axis] = 8 * SGM_UNITS_PER_METRE;

@@ -15,7 +15,8 @@ TEST_CASE("chunk calls are checked") {
   sgm_chunks_desc good = SGM_CHUNKS_DESC_INIT;
   good.requests = &request;
   good.count = 1;
-  // A number of entries greater than any call here may accept, filled with a pointer that is no mesh.
+  // kTooMany: a number of entries that every call here must reject; wild: an invalid mesh pointer, with which the tests
+  // fill arrays before each call.
   constexpr size_t kTooMany = (size_t{1} << 20) + 1;
   sgm_mesh* const wild = reinterpret_cast<sgm_mesh*>(&world);
   std::vector<sgm_mesh*> meshes(kTooMany + 1);

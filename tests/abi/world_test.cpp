@@ -368,7 +368,7 @@ TEST_CASE("another field takes a world's place, and only what it changes is mesh
   CHECK(after.chunks_outdated > 0);
   CHECK(4 * after.chunks_outdated < before.kept);
   CHECK(engine.drawn != small);
-  // The hash equals that of a world that was created with the new field.
+  // The hash after the replacement equals the hash of a world that was created with the new field.
   const int32_t low[3] = {0, 0, 0}, high[3] = {65536, 32768, 32768};
   uint64_t streamed = 0;
   REQUIRE(sgm_world_hash(world.get(), low, high, 0, &streamed, nullptr) == SGM_OK);

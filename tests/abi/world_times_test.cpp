@@ -244,7 +244,7 @@ TEST_CASE("a world is watched by other threads while its engine updates it", "[t
   sgm_world* const world = watched.world.get();
   std::atomic<bool> ends{false};
   std::atomic<unsigned> looks{0}, wrong{0};
-  // This thread must not use Catch2's checks, which are not thread-safe.
+  // This function runs on another thread, which must not use Catch2's checks: they are not thread-safe.
   const auto watch = [&] {
     sgm_world_times before = SGM_WORLD_TIMES_INIT;
     while (!ends) {

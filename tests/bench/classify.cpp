@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
       makers.push_back(std::move(*maker));
     }
     for (uint64_t i = 0; i < models / classes.size(); ++i) {
-      // Step through the makers, so that even a few models come from all grammars, not only from the first one.
+      // Take every seventh maker, so that even a few models come from all grammars, not only from the first one.
       const masters::ModelMaker& maker = makers[i * 7 % makers.size()];
       const auto mesh = maker.make(hashCombine(seed, i), **backend, **jobs);
       if (!mesh) giveUp(mesh.error());

@@ -19,7 +19,7 @@ class Trace {
     nodes_.push_back({{a, b, c}, kind});
     return static_cast<uint32_t>(nodes_.size() - 1);
   }
-  /// Marks a value as used, and counts its operation and those of all values on which it depends.
+  /// Marks a value as used, and counts the operations that compute it and all values on which it depends.
   void keep(uint32_t node) {
     pending_.push_back(node);
     while (!pending_.empty()) {

@@ -54,7 +54,8 @@ done
 if ((failed)); then
   echo "If the change is meant, run: bash $0 $program '$compiler' $path --record" >&2
 fi
-# A deviation always fails. A missing recorded figure makes the test skipped, but only if no other figure deviates.
+# A deviation from a recorded figure always fails. If there is none, but a figure has not been recorded yet, the test is
+# skipped.
 if ((!failed)) && [[ -n $unknown ]]; then
   skip "no figures for '$compiler, $path' and$unknown yet: run with --record"
 fi

@@ -37,7 +37,7 @@ double processorTime();
 /// Returns the peak resident memory of this process in MB.
 double peakMemory();
 
-/// Calls work() `warm_up` times without and then `runs` times with measuring its time.
+/// Calls work() `warm_up` times without measuring, then measures the times of `runs` further calls.
 template <class Work>
 Times timed(int warm_up, int runs, Work&& work);
 
@@ -46,8 +46,8 @@ double now();
 
 Times statistics(std::vector<double> milliseconds);
 
-/// Restricts this process to the first `threads` of the processors that it may use, so that a result really belongs to
-/// that number of threads.
+/// Restricts this process to the first `threads` of the processors that it may use, so that a measurement with
+/// `threads` threads cannot use more processors than that.
 void pin(int threads);
 
 template <class Work>

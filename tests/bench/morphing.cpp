@@ -24,7 +24,8 @@ using namespace sgm;
 
 struct Way {
   std::string name;
-  std::string body;  ///< text of the rule Body: the shape halfway between the two, as this variant writes it
+  std::string body;  ///< source text of the rule Body, in which this variant writes the shape halfway between the two
+                     ///< shapes
 };
 
 constexpr const char* kHead =
@@ -73,8 +74,8 @@ bool costOf(const std::string& text, double t, int runs, Cost& cost) {
   if (!program) return fail(program.error().message);
   cost.instructions = (*program)->instrs.size();
 
-  // Sample a brick around the middle of each shape, as meshing does, so that no shape is skipped because its bounding
-  // box is far.
+  // Sample a brick of points around the middle of each shape, as meshing does. So no shape is skipped as too far away
+  // by its bounding box.
   std::vector<int32_t> x, y, z;
   for (const ProgramGroup& group : (*program)->groups) {
     const IntBox& box = group.influence;
@@ -88,8 +89,8 @@ bool costOf(const std::string& text, double t, int runs, Cost& cost) {
   const Points points{x.data(), y.data(), z.data(), x.size()};
   EvalScratch scratch;
   bench::takeOperationCount();
-  constexpr size_t kAtOnce = 64;  // number of samples per call: few, because the counting evaluator stores every
-                                  // operation of a call
+  constexpr size_t kAtOnce = 64;  // number of samples per call; small, because the counting evaluator keeps every
+                                  // operation of a call in memory
   for (size_t i = 0; i < x.size(); i += kAtOnce) {
     const Points some{x.data() + i, y.data() + i, z.data() + i, kAtOnce};
     bench::floatCountingKernels().samples((*program)->view(), some, scratch, counted.data() + i);

@@ -5,8 +5,8 @@
 # of 4 by 4 by 4 if cells are also stacked. The long run tests 1,000 seeds of cave.sgm and 100 of the other samples.
 source "$(dirname "$0")/common.sh"
 
-# caves NAME SEEDS ANCHORS [SOLID]: checks the sample NAME, in the long run for SEEDS seeds. It must have at least
-# ANCHORS anchors, and no floating rock above SOLID (default: 8) cubic metres.
+# caves NAME SEEDS ANCHORS [SOLID]: checks the sample NAME; the long variant of this test checks SEEDS seeds of it. It
+# must have at least ANCHORS anchors, and no floating rock above SOLID (default: 8) cubic metres.
 caves() {
   local seeds=1 said=
   [[ ${SGM_LONG-} != 1 ]] || { seeds=$2 && said=" with $2 seeds"; }
@@ -24,7 +24,8 @@ caves branchwork 100 0
 caves lake 100 16
 caves table4/cui 100 64
 
-# A passage that is far deeper than wide must be one void: it is cut by bores, one below the other, that must overlap.
+# A passage that is far deeper than wide must be a single void. The library cuts out such a passage as several bores,
+# one below the other; these bores must overlap.
 for passage in 'Canyon((-25m, 0m, 0m), (25m, -2m, 0m), 2m, 20m)' 'Keyhole((-25m, 0m, 0m), (25m, -2m, 0m), 2m, 12m)' \
   'Keyhole((-25m, 0m, 0m), (25m, -2m, 0m), 0.5m, 40m)'; do
   cat >deep.sgm <<END

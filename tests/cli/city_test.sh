@@ -3,8 +3,8 @@
 # stay within its memory limits. It goes 300 m away at 60 m/s, in the long run 2 km.
 source "$(dirname "$0")/common.sh"
 
-# The flight has more frames than the path takes: on a busy machine, the last chunks are loaded while the viewer stands
-# still.
+# More frames than the path needs: on a busy machine, the last chunks are loaded after the viewer has reached the end
+# and stands still.
 away=300 frames=1000
 [[ ${SGM_LONG-} != 1 ]] || away=2000 frames=6000
 city=$SOURCE/samples/grammars/city.sgm

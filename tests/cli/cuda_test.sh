@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Tests the command on a simulated CUDA GPU: LD_LIBRARY_PATH leads to its libcuda.so.1 first.
+# Tests the command on a simulated CUDA GPU: LD_LIBRARY_PATH makes the loader find the libcuda.so.1 of the simulation
+# first.
 source "$(dirname "$0")/common.sh"
 
 expect 0 "$SGM" backends

@@ -72,7 +72,8 @@ expect 1 "$SGM" check --expect bar.sgm
 out_has "bar.sgm:5:1: report: genus = not measured: the region's border cuts the surface"
 err_has "bar.sgm:6:1: error: expected genus == 0 in block\(1\), but it is not measured: the region's border cuts"
 
-# The message must give the places of unwanted components: the smallest first, each by the bounding box of its samples.
+# The message must list the unwanted components, the smallest first. As the place of a component, it must give the
+# bounding box of the component's samples.
 cat >stray.sgm <<'END'
 sgm 1;
 domain finite box(64m);

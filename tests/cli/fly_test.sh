@@ -31,8 +31,8 @@ for flight in "5 1 --unpaced" "20 2" "60 3 --unpaced"; do
   [[ -n $pace ]] || json '!j.stale_after_2_frames || j.stale_after_2_frames.median <= j.stale_after_2_frames.worst'
 done
 
-# At the same place, reached by another path, at another speed, with another number of threads, the world must be the
-# same.
+# A flight that reaches the same place by another path, at another speed and with another number of threads must find
+# the same world there.
 printf '{"points": [[96, 96, 96], [110, 96, 96], [120, 96, 100]]}' >path.json
 printf '{"points": [[60, 96, 140], [120, 96, 100]]}' >other.json
 small=(--cell 0.5 --seed 3 --finest 12 --top-level 3 --view 60 --unpaced --json)
@@ -69,7 +69,8 @@ expect 0 "$SGM" fly "$SOURCE/tests/bench/grammars/building.sgm" --sharp --cell 0
   --finest 12 --top-level 3 --view 60 --check --edits 5 --unpaced --json
 json 'j.commits > 5 && j.chunks_meshed > 100 && j.digs > 2'
 json 'j.open_edges === 0 && j.nonmanifold_edges === 0 && j.self_intersections === 0 && j.whole_failures === 0'
-# Where noise is as fine as the cells, no sharp edge is valid at some places; their number must be reported.
+# Where noise is as fine as the cells, some cells have no valid sharp edge and keep a rounded one. The number of these
+# cells must be reported.
 expect 0 "$SGM" fly "$cave" --sharp --cell 0.5 --seed 3 --frames 60 --unpaced
 out_has 'edges +[0-9]+ cells keep rounded edges'
 expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --frames 60 --unpaced --json
@@ -92,7 +93,8 @@ expect 1 "$SGM" fly tide.sgm "${small[@]}" --frames 10 --animate wet
 err_has 'no range'
 rm tide.sgm
 
-# The next flight must load the edits and meshed chunks of a flight; a flight with another journal digs elsewhere.
+# A second flight with the same journal and the same folder of chunks must load the edits and meshed chunks of the first
+# one.
 kept=(--path path.json --speed 10 --frames 180 --edits 4 --journal dug)
 left=(bin dug path.json other.json one.json torn.json flat.json)
 if [[ ${SGM_TEST_DISK_CACHE:-1} == 1 ]]; then

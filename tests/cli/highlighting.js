@@ -67,7 +67,7 @@ function check(holds, what) {
   check(tokens > 5000, `only ${tokens} tokens in the samples`);
 
   const source = fs.readFileSync(path.join(project, 'runtime/grammar/syntax/keywords.cpp'), 'utf8');
-  // The keywords that begin statements are reserved words, except for clause words.
+  // A keyword that begins a statement is a reserved word, unless it is in the table kClauseWords.
   const statements = fs.readFileSync(path.join(project, 'runtime/grammar/syntax/stmts.def'), 'utf8');
   const words = [...statements.matchAll(/^SGM_STMT\(\w+, "(\w+)"/gm)].map((m) => m[1]);
   check(words.length > 25, `only ${words.length} words of statements`);

@@ -76,7 +76,7 @@ for format in glb obj ply stl; do
   cp report.json .out
   json 'j.valid && j.measures.watertight && j.preview.triangles === j.measures.triangles && j.preview.of_triangles > 1000'
 done
-# A mesh that the region cuts must be valid except for the cut.
+# The mesh of a region whose border cuts the ball is open at the cut. Otherwise it must be valid.
 same ball.sgm sgm --cell 0.25
 cp report.json .out
 json 'j.valid && j.measures.cell === 0.25 && j.diagnostics.length === 0'
@@ -134,7 +134,7 @@ refused good.glb 'j.status === 422 && /for grammars/.test(j.detail)' --kind glb 
 # Checks invalid grammars, and grammars that import files that they may not read.
 printf 'sgm 1;\nunits m;\nstart Ball;\nrule Ball { sphere(3); }\n' >wrong.sgm
 refused wrong.sgm 'j.status === 422 && j.line === 4 && j.column > 0 && j.diagnostics[0].line === 4 && j.diagnostics[0].severity === "error" && j.diagnostics[0].message.length > 0' --kind sgm
-# These files are named pipes: a process that opened one would block for ever.
+# These files are named pipes: a process that opened one of them would block for ever.
 mkfifo secret.sgm asset.glb
 for path in /etc/passwd ../x.sgm secret.sgm "$work/secret.sgm" asset.glb "$work/asset.glb" ../asset.glb nothing.sgm; do
   printf 'sgm 1;\nunits m;\nimport "%s" as A;\nstart Ball;\nrule Ball { sphere(3m); }\n' "$path" >import.sgm
@@ -163,7 +163,7 @@ expect 0 "$SGM" mesh ball.sgm --cell 0.0205 --set radius=3.4m --out million.ply
 judged million.ply --kind ply --name million.ply
 json 'j.valid && j.measures.triangles > 900000 && j.preview.triangles <= 60000 && j.preview.triangles > 10000 && j.classification !== null'
 
-# The limits must be hard limits, which the process cannot raise.
+# The limits must be set as hard limits, because a process can raise a soft limit itself.
 mkfifo input
 "$SGM" inspect --kind stl --seconds 7 <input >/dev/null &
 inspecting=$!
@@ -177,7 +177,8 @@ grep -E '^Max (cpu time|file size|core file size|open files|address space)' /pro
 for limit in 'cpu time 7 8' 'file size 268435456 268435456' 'core file size 0 0' 'open files 32 32'; do
   grep -q "^Max $limit " limits || failed "a limit of $limit expected: $(<limits)"
 done
-# Under a sanitizer there is no memory limit, since sanitizers map more memory than any limit would allow.
+# A build with a sanitizer has no memory limit (`unlimited`), since sanitizers map more memory than any limit would
+# allow.
 grep -Eq '^Max address space ([0-9]+|unlimited) \1 ' limits || failed "a hard limit of memory expected: $(<limits)"
 exec 9>&-
 wait $inspecting
@@ -246,7 +247,7 @@ refused listed.json 'j.status === 500 && j.code === "masters_unusable"' --store-
 judged ball.glb --kind glb --masters damaged.db
 json 'j.valid && j.classification === null && j.classification_error.length > 0 && j.nearest_masters.length === 0'
 
-# Only the service calls this command, so --help must not list it; wrong usage must be reported to the caller.
+# The command `inspect` is only for the service, so --help must not list it. It must report wrong usage to its caller.
 expect 0 "$SGM" --help
 [[ $out != *inspect* ]] || failed "help lists it"
 expect 2 "$SGM" inspect

@@ -26,7 +26,7 @@ run bash copy/samples/manual.sh changed
 [[ $status == 1 && $out == first ]] || failed 'a changed example is not seen'
 
 words() { sed -n "/ $1 = {/,/};/p" "$SOURCE/runtime/grammar/syntax/keywords.cpp" | grep -o '"[a-z]*"' | tr -d '"'; }
-# The keywords that begin statements are reserved words, except for clause words.
+# A keyword that begins a statement is a reserved word, unless it is in the table kClauseWords.
 keywords() {
   words kOtherKeywords
   sed -n 's/^SGM_STMT([a-z_]*, "\([a-z]\+\)".*/\1/p' "$SOURCE/runtime/grammar/syntax/stmts.def" | grep -vxF "$(words kClauseWords)"

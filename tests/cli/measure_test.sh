@@ -11,7 +11,7 @@ json 'Math.abs(j.histogram.shares.reduce((a, b) => a + b) - 1) < 1e-12 && j.hist
 json 'j.seed === 0 && j.cell === 0.25 && j.hash.length === 16'
 grammar_area=$(node -e 'console.log(JSON.parse(require("fs").readFileSync(process.argv[1], "utf8")).area)' .out)
 
-# All formats must give the same measures, up to the single precision of their positions.
+# The same mesh in each format must have the same measures, up to the rounding of positions to single precision.
 for format in glb obj ply stl; do
   expect 0 "$SGM" mesh ball.sgm --cell 0.25 --out ball.$format
   expect 0 "$SGM" measure ball.$format --json
@@ -203,7 +203,8 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n
 expect 0 "$SGM" measure inverted.obj --json
 json '!j.valid && j.watertight && j.inside_out === 1 && j.volume < 0 && Math.abs(j.volume + 1 / 6) < 1e-12'
 
-# For a file that contains no mesh, there must be one line with the place, and status 1.
+# A damaged file that contains no readable mesh must cause one line of output, which names the place of the damage, and
+# exit status 1.
 head -c 2000 ball.glb >cut.glb
 expect 1 "$SGM" measure cut.glb
 err_has 'cut.glb: .*at byte'
@@ -358,7 +359,8 @@ if [[ -e large.stl ]]; then
   kill -TERM $! 2>/dev/null
   wait $! 2>/dev/null
   sleep 0.3
-  # If the process is still listed, it must be a zombie, which has already ended.
+  # If the reading process is still listed, it must be a zombie: a process that has ended, but whose parent has not yet
+  # asked for its status.
   [[ -z $reader || $(ps -o stat= -p "$reader") != [^Z]* ]] || failed 'the process that reads outlives its caller'
 fi
 finish

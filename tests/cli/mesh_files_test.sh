@@ -40,7 +40,7 @@ measured unpadded.glb "j.valid && $(near j.volume '8 / 6')" 'the length of a chu
 expect 0 "$SGM" measure texture_transform.glb --texels 256 --json
 json 'Math.abs(j.texels.mean - 1024) < 0.01 || Math.abs(j.texels.median - 1024) < 0.01'
 
-# Reads the same mesh in UTF-16, and as glTF in text form.
+# Reads a mesh of the cases above in UTF-16, and another one as glTF in text form.
 { printf '\xFF\xFE' && iconv -f UTF-8 -t UTF-16LE concave_l.obj; } >wide.obj
 measured wide.obj "j.valid && $(near j.volume 3)" ''
 node -e '
@@ -71,7 +71,7 @@ printf 'v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 2 0\nf 1 2 3 4\n' >bow.obj
 expect 0 "$SGM" measure bow.obj
 err_has '^sgm: note: bow.obj: 1 polygon crosses itself or has no area, at line 5'
 
-# Notes must also be given for the second file of --against, and for classified files.
+# Notes about damaged files must also be printed for the second file of --against, and for classified files.
 expect 0 "$SGM" measure concave_l.obj --against bytes_behind.stl --json
 err_has '^sgm: note: bytes_behind.stl: 16 bytes'
 ball >ball.sgm
@@ -81,7 +81,8 @@ expect 0 "$SGM" classify ball.stl --json
 json 'j.notes.length === 1 && j.notes[0].startsWith("6 bytes after")'
 err_has '^sgm: note: ball.stl: 6 bytes after'
 
-# An upload must be read in the same way, whatever its declared type, and its report must have the notes.
+# An uploaded file must be read like a file on the command line, whatever its declared type. Its report must contain the
+# notes.
 "$SGM" inspect --kind stl --name house.stl <glb_named.stl >.frame 2>.err
 last='inspect glb_named.stl'
 [[ -s .err ]] && failed 'inspect speaks on standard error'
@@ -91,7 +92,7 @@ node -e '
 out=$(<.out)
 json "j.valid && $(near j.measures.volume 8) && j.measures.notes.length === 1 && j.measures.notes[0].startsWith('by its bytes')"
 
-# A grammar that imports such a file must report the notes as warnings at the import.
+# If a grammar imports a mesh file that causes notes, they must be reported as warnings at the import.
 cp lines_beside.glb box.glb
 printf 'sgm 1;\nunits m;\nimport "box.glb" as box;\nstart Box;\nrule Box { size(2m, 2m, 2m) fit box; }\n' >box.sgm
 expect 0 "$SGM" check box.sgm

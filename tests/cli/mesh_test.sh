@@ -112,8 +112,8 @@ expect 0 "$SGM" mesh rooms.sgm --cell 0.125
 err_empty
 rm rooms.sgm
 
-# The reported volume must be that of the solid inside the region, whether the border cuts the solid or not, sharp or
-# round.
+# The reported volume must be that of the solid inside the region, whether the border cuts the solid or not, with and
+# without --sharp.
 printf 'sgm 1;\nstart A;\nrule A { box(10m, 1m, 10m); }\n' >slab.sgm
 for sharp in '' --sharp; do
   expect 0 "$SGM" mesh slab.sgm --cell 0.1 $sharp --json

@@ -110,7 +110,7 @@ json 'j.exhibits["figure-10"].models.map(m => m.model).join() === "cave,cloud,bu
 page part
 expect 0 "$SGM" paper --out again --only density --quick --no-pictures
 cmp -s part/index.html again/index.html || failed "two runs differ"
-# Makes the same report without --quick, with finer cells; in the long run, with all parts.
+# Makes the same report without --quick, with finer cells. The long variant of this test makes all parts of the report.
 expect 0 "$SGM" paper --out fine --only density --no-pictures --json
 json '!j.quick && Math.abs(j.exhibits["figure-10"].ball_order - 2) < 0.1'
 json 'j.exhibits["figure-10"].roughness.every(m => m.values.length > 4)'
@@ -229,8 +229,8 @@ line=$(grep -o 'sgm measure grammars/storeys.sgm .*--ld 2 .*--mode printed.*' re
 last=$line
 json "Math.max(...j.histogram.shares) === $house.largest_share.printed && j.histogram.entries_index_le_0 === $house.entries_index_le_0"
 mv numbers.json .out
-# The signs for surfaces, vertices and holes must follow from the commands on the page. This is checked for two cut
-# worlds and a whole one, and for all in the long run.
+# The page's entries for surfaces, vertices and holes in Table 4 must follow from the commands on the page. This is
+# checked for two cut worlds and a whole one; the long variant of this test checks all systems.
 node -e 'for (const s of JSON.parse(require("fs").readFileSync(".out")).exhibits["table-4"].systems) console.log(s.criteria["No holes"].command)' >holes
 [[ $(wc -l <holes) == 10 ]] || failed "a system without a command"
 [[ ${SGM_LONG-} == 1 ]] || sed -i -n '/greuter\|marson\|gkm/p' holes

@@ -103,7 +103,8 @@ shown() {
 shown 400 300 'c[0] > 60 && Math.abs(c[0] - c[2]) < 60' "no ball in the middle of the window"
 shown 780 20 'c[2] > c[0] + 20' "no sky beside it"
 
-# A saved file must be drawn at once, also if it is imported. Errors must be reported, and the last picture must stay.
+# A saved file must be drawn at once, also a file that the shown file imports. Errors must be reported, and the last
+# picture must stay.
 world 1.5m >ball.sgm
 waited 'j.event === "picture" && j.draft && j.messages === ""'
 waited 'j.event === "picture" && !j.draft'

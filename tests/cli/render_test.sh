@@ -53,8 +53,8 @@ expect 2 "$SGM" render ball.sgm --out ball.png --pixels 2 --volume
 expect 2 "$SGM" render ball.sgm --out ball.png --pixels 2 --plan
 expect 0 "$SGM" render "$cave" --out at.png --at spawn --region=0,0,0:192,192,192 --cell 2 --size 64x64 --seed 7
 picture at.png 64 64
-# Of an infinite world, the command must show the component nearest to the origin as a whole, with cells large enough
-# for that.
+# If the world is infinite, the command must show the whole component that is nearest to the origin. It must choose
+# cells so large that this is possible.
 cat >sky.sgm <<'END'
 sgm 1;
 domain infinite axes xz;

@@ -12,7 +12,7 @@ err_has 'sbatch cannot be run'
 err_has 'samples/bake'
 one_line
 rm -r none
-# If only a part of Slurm is installed, the error must be the same.
+# If only a part of Slurm is installed, there must also be one clear error: it names the missing command.
 mkdir part
 printf '#!/bin/sh\necho 1\n' >part/sbatch
 chmod +x part/sbatch
@@ -43,7 +43,8 @@ expect 0 bash -c 'grep -h "complete and closed" shared/slurm/*/verify.txt'
 expect 0 "$SGM" bake "${world[@]}" --out shared --slurm 7
 out_has 'already baked'
 
-# Kills a node while it bakes: its shard must be restarted on another node, long after the other shards have ended.
+# Kills a node while it bakes: Slurm must restart the shard of this node on another node, even if the other shards ended
+# long before.
 expect 0 "$SGM" bake "${world[@]}" --out hurt --slurm 3 --detach
 out_has '0 failed'
 cluster_kill_node_of "$work/hurt.*--shard [0-9]+/3" || failed "no shard has been met"

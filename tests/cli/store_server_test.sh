@@ -83,7 +83,7 @@ expect 0 "$SGM" "${flight[@]}" --edits 4 --store "$address" --cache cache
 json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits === 0 && j.cache.hits > 100"
 err_has 'cannot be read \(.*chunks are derived instead; the server is asked again'
 one_line
-# Here the server never runs.
+# Here the server never runs, so all chunks must be derived.
 expect 0 "$SGM" "${flight[@]}" --edits 4 --store "$address"
 json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits === 0 && j.stores.damaged === 0"
 one_line

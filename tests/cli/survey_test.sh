@@ -37,7 +37,7 @@ for class in cut rock solid; do lacks $class plan.svg; done
 grep -q 'aria-label="rooms.sgm - plan"' plan.svg || failed "no title"
 grep -q 'aria-label="seed 0, ' plan.svg || failed "no seed"
 grep -q '<title>rooms.sgm, seed 0, ' plan.svg || failed "no title of the file"
-# The bytes must not depend on the number of threads.
+# The bytes of a drawing must not depend on the number of threads.
 cp plan.svg before.svg
 expect 0 "$SGM" render rooms.sgm $all --out plan.svg --plan --threads 1
 cmp -s plan.svg before.svg || failed "one thread draws another plan"
@@ -61,8 +61,8 @@ read -r mean dark < <(node "$SOURCE/tests/cli/png.js" plan.png)
 read -r mean dark < <(node "$SOURCE/tests/cli/png.js" plan.png 0 0 30 30)
 ((mean == 765 && dark == 0)) || failed "the margin is not white"
 
-# A lake must have dripstone and contours; of an infinite world, the surroundings of the anchor nearest to the origin
-# must be drawn.
+# The drawing of a lake must contain dripstone and contours. For an infinite world, the drawing must show the
+# surroundings of the anchor nearest to the origin.
 expect 0 "$SGM" render "$lake" --out lake.svg --plan --section --seed 3 --region=-96,-40,-96:96,40,96 --json
 json 'j.plan.dripstones > 5 && j.plan.water.join() === "-5" && j.plan.contour_interval > 0 && j.plan.leads > 4'
 for class in contour hachure stalactite stalagmite shore ceiling_step room; do has $class lake.svg; done
@@ -81,7 +81,7 @@ json 'j.plan.contour_interval === 0 && Math.abs(j.plan.highest - 4) < 0.1'
 lacks contour top.svg
 rm level.sgm top.svg
 
-# Refused calls must give one message.
+# Each refused call must print exactly one error message.
 expect 1 "$SGM" render rooms.sgm --out wrong.svg --plan --region=1,14,1:4,18,4
 one_line
 err_has 'rock without a void; choose another --region'

@@ -37,8 +37,8 @@ TestedMachine& machine() {
   return one;
 }
 
-/// Returns true if there is a device. The first call meshes every instruction once, so that all pipelines exist
-/// afterwards.
+/// Returns true if there is a device to be tested. The first call meshes one job for every instruction, so that all
+/// pipelines exist afterwards.
 bool ready() {
   static const bool made = [] {
     if (!machine()) return false;
@@ -183,7 +183,8 @@ TEST_CASE(
         kernel = b.kernelWeight(shape, 0.6f * r);
         sum.add(kernel);
       }
-      // A value that other instructions also read must not be merged into the sum.
+      // The device may merge a kernel's value into the sum only if no other instruction reads it. Here another
+      // instruction does.
       if (reader == 1) sum.add(kernel);
       if (reader == 2) sum.add(b.binary(Op::multiply, kernel, kernel));
       if (reader == 3) sum.add(b.binary(Op::maximum, t, b.constant(0.01f)));

@@ -36,8 +36,8 @@ inline std::string differenceOf(const MeshPart& expected, const MeshPart& found)
   return expected.hash == found.hash ? std::string() : "the hash";
 }
 
-/// True if all samples of a chunk have the same sign, by the number of solid samples; and if the mesh has signs, they
-/// agree.
+/// True if all samples of a chunk have the same sign: the number of solid samples is 0 or the maximum, and the signs,
+/// if the mesh has them, agree with this number.
 inline bool ofOneSign(const ChunkMesh& mesh) {
   constexpr uint64_t kRow = (uint64_t{1} << kChunkSamples) - 1;
   const bool solid = mesh.solid_samples > 0;
@@ -47,8 +47,8 @@ inline bool ofOneSign(const ChunkMesh& mesh) {
   return mesh.solid_samples == (solid ? uint32_t{kChunkCells} * kChunkCells * kChunkCells : 0u);
 }
 
-/// Describes the first difference between two meshes of one job; empty if they are equal. It is no difference if one
-/// backend proves a chunk uniform, and the other samples it and finds a single sign.
+/// Describes the first difference between two meshes of one job; empty if they are equal. The meshes also count as
+/// equal if one backend proves a chunk uniform, and the other samples the chunk and finds a single sign.
 inline std::string differenceOf(const ChunkMesh& expected, const ChunkMesh& found) {
   if (std::string body = differenceOf(expected.body, found.body); !body.empty()) return "body: " + body;
   if (expected.seams.size() != found.seams.size()) return "the count of seams";

@@ -39,7 +39,11 @@ struct CudaDeviceMachine {
 
   static constexpr bool kAnyPrism = true;
   Backend& device() const { return *cuda; }
-  bool silent() const { return true; }  ///< always true: errors that the driver detects already make a batch fail
+  bool silent() const {
+    return true;
+  }  ///< Vulkan machines report here whether the validation layer found no error;
+     ///< for CUDA always true, because an error that the driver detects makes the
+     ///< batch fail
 };
 
 using TestedMachine = CudaDeviceMachine;

@@ -17,7 +17,7 @@ const BUFFERS = ['StorageBuffer', 'Uniform', 'PushConstant'];
 const CHOICES = ['OpBranchConditional', 'OpSwitch'];
 const BRANCHES = ['OpBranch', ...CHOICES];
 const LEAVING = ['OpReturn', 'OpReturnValue', 'OpKill', 'OpTerminateInvocation'];
-// Operations that return the same value to all invocations of a subgroup; reductions also do.
+// Operations that return the same value to all invocations of a subgroup. Operations with the operand Reduce also do.
 const SHARED = /^OpGroupNonUniform(All|Any|AllEqual|BroadcastFirst|Ballot|BallotFindLSB|BallotFindMSB)$/;
 const isAccess = (op) => op === 'OpAccessChain' || op === 'OpInBoundsAccessChain';
 const isSubgroup = (op) => op.startsWith('OpGroupNonUniform');
@@ -78,9 +78,9 @@ function loopsOf(blocks) {
 }
 
 /**
- * Returns the blocks that invocations may execute separately after a divergent branch: those up to where its paths
- * merge. If a path leaves or continues a loop, these are all blocks of the loop; if a path returns from the function,
- * all blocks that may follow.
+ * Returns the blocks that invocations may execute separately after a divergent branch: all blocks on its paths, up to
+ * the block where the paths merge. If a path leaves or continues a loop, these are all blocks of the loop; if a path
+ * returns from the function, all blocks that may follow.
  */
 function parted(blocks, loops, label) {
   const around = loops.filter(({ inside }) => inside.has(label));

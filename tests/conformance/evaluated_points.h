@@ -26,8 +26,8 @@ struct Evaluated {
 };
 Evaluated evaluate(const FieldKernels& kernels, const ProgramView& program, const Points& points);
 
-/// True if any value differs from that of an empty or solid domain. Otherwise, comparing the results would prove
-/// nothing.
+/// True if any value differs from the value of an empty or solid domain. If none differs, comparing the results of
+/// evaluators would prove nothing.
 bool shows(const Evaluated& e);
 
 /// Returns the number of words that differ.

@@ -154,7 +154,7 @@ class Generator {
     const double largest = odd_.huge_and_tiny && pick(3) == 0 ? 1e12 : extent_;
     for (float& sample : samples) sample = std::floor(between(-largest, largest) * 1024.0f) / 1024.0f;
     const float limit = pick(3) == 0 ? size() : kFarSample;
-    // Without a bound on the slope, sometimes put one "far" value next to normal ones.
+    // If the slope need not be bounded, sometimes put one value that means "far" next to normal values.
     const int sentinel = pick(static_cast<int>(samples.size()));
     if (limit == kFarSample && pick(2) == 0) samples[static_cast<size_t>(sentinel)] = kLargestSample;
     return builder_.lattice(at, samples, limit, label());
@@ -165,7 +165,8 @@ class Generator {
                                   Op::capsule,     Op::torus,     Op::ellipsoid, Op::superquadric,
                                   Op::power_morph, Op::halfspace, Op::prism,     Op::lattice};
     const Op op = kAll[pick(static_cast<int>(std::size(kAll)))];
-    // Some operands lie far outside, where their values are large and positive: wrong pruning would choose these.
+    // Some operands lie far outside of the sampled points, where their values are large and positive. Wrong pruning
+    // would choose these operands.
     return primitive(op, pick(5) == 0 ? 6.0 : 1.0);
   }
 
@@ -350,7 +351,7 @@ FieldProgram randomProgram(std::mt19937& random, const RandomProgramOptions& o) 
 }
 
 FieldProgram programOf(Op op, std::mt19937& random, Int3 centre, Oddities odd) {
-  // The domain is void, because its minimum with the op would hide the op's value if it were solid.
+  // The domain is void. The field is the minimum of the domain and the op, so a solid domain would hide the op's value.
   const uint32_t domain = randomLabel(random);
   Generator g(random, centre, 16 * 1024, 512, false, domain, odd);
   ProgramBuilder& b = g.builder();

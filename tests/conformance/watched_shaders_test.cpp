@@ -10,8 +10,9 @@ using namespace sgm;
 
 namespace {
 
-/// Makes jobs with two layers of spheres that add, cut and blend, some with seams to other programs. They use few kinds
-/// of instructions, because each kind must be compiled with the validation's checks.
+/// Makes jobs whose fields have two layers of spheres, which add, cut and blend. Some jobs have seams to chunks with
+/// another program. The fields use few kinds of instructions, because each kind must be compiled with the validation's
+/// checks.
 std::vector<ChunkJob> layeredBalls(uint32_t seed, size_t count) {
   std::mt19937 random(seed);
   std::vector<ChunkJob> jobs;

@@ -1,5 +1,5 @@
-# Configures the core commands as samples/demo.sh does, with no other packages available than those they need: cmake
-# -DSOURCE=... -DBINARY=... "-DOPTIONS=..." -P core_only.cmake
+# Configures the core commands as samples/demo.sh does, but hides all packages that these commands do not need:
+# cmake -DSOURCE=... -DBINARY=... "-DOPTIONS=..." -P core_only.cmake
 file(REMOVE_RECURSE ${BINARY})
 set(hidden)
 foreach(package Boost CGAL Catch2 PkgConfig SQLite3 Vulkan glfw3 prometheus-cpp)

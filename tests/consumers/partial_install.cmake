@@ -4,7 +4,8 @@
 #
 #   cmake -DBUILD=... -DWORK=... "-DLIBRARY=files" "-DSERVICE=files" "-DCOMMAND=files" -P partial_install.cmake
 #
-# An empty list: the build has no such part. Leaves in WORK/prefix the library, installed from a tree that has only it.
+# An empty list: the build has no such part. At the end, WORK/prefix contains the library, installed from a build tree
+# without other parts.
 cmake_minimum_required(VERSION 3.25)
 set(tree ${WORK}/build)
 file(REMOVE_RECURSE ${WORK})
@@ -15,7 +16,8 @@ list(FILTER scripts EXCLUDE REGEX "^tests/consumers/.*/")
 foreach(script IN LISTS scripts)
   file(READ ${BUILD}/${script} text)
   string(REPLACE "${BUILD}" "${tree}" text "${text}")
-  string(REPLACE "OLD_RPATH \"${tree}" "OLD_RPATH \"${BUILD}" text "${text}")  # the built files have this RPATH
+  # the built files contain the RPATH of the original build
+  string(REPLACE "OLD_RPATH \"${tree}" "OLD_RPATH \"${BUILD}" text "${text}")
   file(CONFIGURE OUTPUT ${tree}/${script} CONTENT "@text@" @ONLY)
 endforeach()
 

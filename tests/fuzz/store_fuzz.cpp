@@ -30,7 +30,7 @@ struct Input {
   }
 };
 
-/// Changes bytes after the first `first` ones, and may truncate the file, as the input says.
+/// Changes bytes at positions from `first` on, and may truncate the file. The input determines these changes.
 void change(Input& input, std::vector<std::byte>& bytes, size_t first) {
   for (size_t i = 0; i < kMaxChanges && input.left > 0 && first < bytes.size(); ++i) {
     const size_t at = first + input.next(3) % (bytes.size() - first);
@@ -176,7 +176,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     default: {
       InMemory file;
       file.all = index;
-      // Three of four inputs change only the last 400 bytes, where the numbers are that readers must check.
+      // Three of four inputs change only the last 400 bytes, because these bytes contain the numbers that readers must
+      // check.
       change(input, file.all, input.next(1) % 4 == 0 ? 0 : file.all.size() - 400);
       mendChecksums(file.all);
       readWorld(file);

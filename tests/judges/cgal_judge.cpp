@@ -105,7 +105,7 @@ void judge(Soup& soup, bool weld, bool count_soup) {
     components = PMP::connected_components(mesh, part);
     if (closed) {
       volume = PMP::volume(mesh);
-      // These two functions of CGAL require meshes without self-intersections.
+      // The two functions of CGAL below require meshes without self-intersections.
       if (found.empty()) {
         outward = PMP::is_outward_oriented(mesh);
         bounds = PMP::does_bound_a_volume(mesh);

@@ -1,9 +1,10 @@
-// Prints CGAL's distances between the meshes of a file (meshes.h), which form pairs: for each pair one line with the
-// one-sided Hausdorff distance from the first to the second mesh, with an error of at most ERROR.
+// Prints CGAL's distances between the meshes of a file (meshes.h). Successive meshes form pairs. For each pair, prints
+// two lines: the one-sided Hausdorff distance from the first mesh to the second, and that from the second to the first,
+// each with an error of at most ERROR.
 //
 //   sgm_judge_distance ERROR FILE
 
-// Include the kernel first: distance.h uses functions of it without declaring them.
+// Include the kernel first: distance.h uses functions of the kernel without declaring them.
 #include "soup_file.h"
 
 #include <CGAL/Polygon_mesh_processing/distance.h>

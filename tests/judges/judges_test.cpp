@@ -160,7 +160,8 @@ TEST_CASE("five shapes at five densities have CGAL's area and volume", "[cgal]")
     CHECK(ours.parts.shells.size() == theirs.components);
     CHECK(ours.self_intersections->pairs == theirs.pairs);
     CHECK(ours.flat_triangles == theirs.flat);
-    // Some meshes are invalid, because closing their borders with cones makes them intersect themselves.
+    // Closing the border of a mesh with a cone can make the mesh intersect itself. So some of these meshes are invalid,
+    // and both judges must say so.
     CHECK(ours.valid() == theirs.valid());
   }
 }
@@ -393,8 +394,8 @@ TEST_CASE("CGAL's distances lie between our bounds", "[cgal]") {
 
 TEST_CASE("where CGAL's count of pairs is another", "[cgal]") {
   Mesh pillow{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
-  // One corner lies on the line through two others: one of the four triangles has no area, and touches the others along
-  // that line.
+  // In this tetrahedron, one corner lies on the line through two other corners. So one of the four triangles has no
+  // area, and touches the others along that line.
   Mesh flat{{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
   JudgedMeshes meshes;
   meshes.add(pillow, kSoup);

@@ -82,7 +82,7 @@ struct CgalVerdict {
   }
 };
 
-/// The one-sided Hausdorff distance from a mesh to the second mesh of its pair.
+/// The one-sided Hausdorff distance from a mesh to the other mesh of its pair.
 struct CgalDistance {
   double distance = 0;
 

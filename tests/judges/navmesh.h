@@ -122,7 +122,8 @@ class Navmesh {
  private:
   /// The navigation polygons nearest to two positions.
   struct Ends {
-    dtPolyRef first = 0, goal = 0;  ///< polygon at the first and at the second position; 0 if there is no floor near it
+    dtPolyRef first = 0, goal = 0;  ///< first: the polygon nearest to the first position; goal: the polygon nearest to
+                                    ///< the second position; 0 if there is no floor near the position
     std::array<float, 3> at{}, last{};
 
     Ends(const dtNavMeshQuery& query, const std::array<double, 3>& from, const std::array<double, 3>& to) {

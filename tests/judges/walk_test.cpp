@@ -97,8 +97,8 @@ std::vector<Point> eachMetre(const std::vector<Point>& corners) {
   return points;
 }
 
-/// Measures areas of cross-sections of the void in square metres: in the vertical plane across a path, the connected
-/// part of the void around a place, up to kFar steps from it.
+/// Measures areas of cross-sections of the void in square metres. A section lies in the vertical plane across a path:
+/// it is the connected part of the void around a place, within kFar steps of the place on each axis of the plane.
 class CrossSections {
  public:
   explicit CrossSections(const WorldField& world) : world_(world) {}
@@ -152,14 +152,14 @@ class CrossSections {
   EvalScratch scratch_;
 };
 
-/// A section of a path, twenty metres long, and how much the area of its cross-sections varies.
+/// A section of a path, twenty metres long, and the areas of the void's cross-sections in it.
 struct Window {
   double variation = 1;       ///< coefficient of variation: standard deviation of the areas divided by their mean
   std::vector<double> areas;  ///< areas of cross-sections, one metre apart, in square metres
 };
 
-/// Returns the section of a path between two halls whose cross-sections vary least. Places nearer than `hall` metres to
-/// either end do not count.
+/// Returns the window of a path between two halls in which the area of the cross-sections varies least. A window is a
+/// section of twenty metres. Points of the path that are nearer than `hall` metres to either end are left out.
 Window leastVaried(CrossSections& sections, const std::vector<Point>& way, double hall) {
   constexpr ptrdiff_t kWindow = 20;
   const std::vector<Point> points = eachMetre(way);
@@ -236,7 +236,7 @@ TEST_CASE("an agent walks from each hall of a cave to each other, through passag
                                       << " m from " << placeText(origin));
         CHECK(is_reached);
         reached += is_reached;
-        // Measure only paths between neighbouring halls that lead through no other hall.
+        // Measure only paths that join neighbouring halls and pass through no other hall.
         for (size_t k = 0; k < i; ++k) {
           if (distance(halls[i], halls[k]) > walk.far) continue;
           const std::vector<Point> way = walked(k, i);

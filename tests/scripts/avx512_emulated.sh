@@ -120,15 +120,16 @@ END
 echo c >"$work/bochs.commands"
 rm -f "$work/serial.txt" "$work/bochs.log"
 started=$SECONDS
-# bochs needs a terminal for its display, which `script` provides. Its exit status does not tell whether the guest's
-# programs passed.
+# bochs needs a terminal for its display, which `script` provides. The exit status of bochs does not tell whether the
+# guest's programs passed.
 TERM=vt100 timeout -k 10 "$limit" \
   script -qec "bochs-bin -q -f '$work/bochsrc' -rc '$work/bochs.commands'" /dev/null >/dev/null 2>&1 </dev/null || true
 
 said=$(tr -d '\r' <"$work/serial.txt" 2>/dev/null) || die "the emulated machine did not start: see $work/bochs.log"
 echo "$said"
 elapsed="after $((SECONDS - started)) s"
-expect() {  # expect COUNT PATTERN WHAT: fails unless the guest's output has COUNT lines that match PATTERN.
+# expect COUNT PATTERN WHAT: fails with the message WHAT unless COUNT lines of the guest's output match PATTERN.
+expect() {
   (($(grep -cE -- "$2" <<<"$said") == $1)) ||
     die "AVX-512 is not shown to be right: $3 ($elapsed; see $work/serial.txt)"
 }

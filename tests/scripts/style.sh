@@ -63,14 +63,14 @@ broken_links() {
 }
 complain "links to files that are not there" "$(broken_links)"
 
-# The program in the README must be that of the sample, which is built and run as a test.
+# The program that the README shows must be identical to the sample, because only the sample is built and run as a test.
 if [[ -e samples/minimal_c/main.c ]]; then
   shown=$(awk '/^```c$/ { on = 1; next } /^```/ { on = 0 } on' README.md)
   complain "README.md's C program differs from samples/minimal_c/main.c" \
     "$(diff <(printf '%s\n' "$shown") samples/minimal_c/main.c || true)"
 fi
 
-# The packages that the README lists for installation by hand must be those that samples/setup_debian.sh installs.
+# The README lists packages to install by hand. They must be the packages that samples/setup_debian.sh installs.
 if [[ -e samples/setup_debian.sh ]]; then
   source samples/setup_debian.sh
   words=$(tr -s ' \\\n' ' ' <README.md)

@@ -32,9 +32,9 @@ export async function mustBeWell(operations) {
 }
 
 /**
- * Sends bytes, then a valid request. If the service must close the connection, only the bytes must be answered;
- * otherwise both. The third argument is the required response: {status, code, closes, headers: {name: pattern},
- * problem(object), head}.
+ * Sends bytes, then a valid request. If the service must close the connection, it must answer the bytes only; otherwise
+ * it must also answer the request. The third argument is the required response to the bytes: {status, code, closes,
+ * headers: {name: pattern}, problem(object), head}.
  */
 export async function mustRefuse({ base, operations }, bytes, { status, code, closes, headers = {}, problem, head }) {
   const behind = requestBytes(base, { target: '/api/v1/reports' });

@@ -1,4 +1,5 @@
-// Tests input that is too large or too slow: how much of it the service accepts before it refuses it.
+// Tests input that is too large or too slow: the service may accept only a limited part of such input before it refuses
+// the rest.
 import net from 'node:net';
 import { answersIn, must, place, requestBytes, sleep, talk } from './http_probe.mjs';
 import { mustBeWell, problemIn, residentMebibytes } from './bad_input_rows.mjs';

@@ -44,7 +44,7 @@ function groupingsOf(expr) {
   return [...expr.matchAll(/\b(?:by|on) \(([^)]*)\)/g)].flatMap(([, labels]) => labels.split(/, */));
 }
 
-// Reports the metrics, labels and label values in a panel's expression that do not exist.
+// Reports every metric, label and label value that a panel's expression uses although it does not exist.
 function checkExpression(where, expr, metrics, used, say) {
   const selectors = [...expr.matchAll(/\b((?:sgm|process)_\w+|up|ALERTS)\b(?:\{([^}]*)\})?/g)];
   if (selectors.length === 0) say(where, `${expr} asks for nothing`);

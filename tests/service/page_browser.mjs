@@ -44,7 +44,7 @@ export async function openPage(browser, base, { before = async () => {}, at = '/
   await before(page);
   await page.goto(base + at);
   const close = async () => {
-    // Ignore errors of responses that are still being replaced when the page closes.
+    // When the page closes, a route handler may still be replacing a response. Ignore the error of that handler.
     await page.unrouteAll({ behavior: 'ignoreErrors' });
     await context.close();
   };

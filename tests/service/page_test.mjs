@@ -71,7 +71,8 @@ async function tabThrough(page, most = 90) {
 }
 
 async function keyboard(id) {
-  // A busy browser reports several changes of visibility in one call. Here each call begins with an outdated one.
+  // A busy browser may report several changes of an element's visibility in one call. Makes each call here begin with
+  // an outdated change.
   const reportOutdated = (opened) =>
     opened.addInitScript(() => {
       window.IntersectionObserver = class extends IntersectionObserver {
@@ -82,8 +83,8 @@ async function keyboard(id) {
     });
   const { page, noted, close } = await openPage(browser, base, { before: reportOutdated });
   await isLive(page);
-  // Focuses an element in view. The page scrolls smoothly: a scroll that the keys before have caused would go on and move
-  // the element out of view, where the mesh is not drawn.
+  // Focuses an element in view. The page scrolls smoothly: a scroll that earlier key presses have caused could continue
+  // and move the element out of view, where the mesh is not drawn.
   const focusInView = async (selector) => {
     await page.focus(selector);
     await page.$eval(selector, (node) => node.scrollIntoView({ behavior: 'instant', block: 'center' }));

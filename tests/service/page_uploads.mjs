@@ -18,8 +18,8 @@ const surface = '#mesh-view canvas:first-child';
 /** Checks that each measure that the page shows equals the report's. */
 async function measuresAgree(checks, page, report) {
   const rows = await page.$$eval('[data-measure]', (all) => all.map((node) => [node.dataset.measure, node.value]));
-  // A key may occur twice in the report: `flat` means triangles without area, and also edges without a bend. Accept
-  // either.
+  // The report uses some keys twice: `flat` counts triangles without area, and it also counts edges without a bend.
+  // Accept either value.
   const isIts = (key, value) =>
     [report.measures[key], report.measures.histogram[key]].some((its) => value === String(its ?? ''));
   const wrong = rows.filter(([key, value]) => !isIts(key, value));

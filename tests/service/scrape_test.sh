@@ -96,8 +96,8 @@ run curl -sS --max-time 20 "$prometheus/api/v1/rules?type=alert"
 json "j.data.groups.flatMap((g) => g.rules).length === $(grep -c -- '- alert:' "$samples/alerts.yml")"
 json 'j.data.groups.flatMap((g) => g.rules).every((r) => r.health === "ok" && r.state !== "firing")'
 
-# Prometheus' last values must agree with the flight's own report; after the flight has ended, the alert for a missing
-# service must fire.
+# Prometheus' last values must equal those in the flight's own report. After the flight has ended, the alert for a
+# missing service must fire.
 meshed=$(value 'sgm_chunks_built_total{result="meshed"}')
 updates=$(value sgm_world_update_seconds_count)
 stop_service

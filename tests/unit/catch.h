@@ -3,6 +3,6 @@
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 #else
-#define CATCH_CONFIG_FAST_COMPILE  // faster; a check that throws an exception ends its test case
+#define CATCH_CONFIG_FAST_COMPILE  // makes compilation faster; a check that throws an exception ends its test case
 #include <catch2/catch.hpp>
 #endif

@@ -34,8 +34,8 @@ namespace crowds {
 namespace {
 
 constexpr uint64_t kBudget = uint64_t{1} << 20;
-// A viewer counts as served if all chunks drawn within kDrawnRadius have grid cells of at most kDrawnCell; both in
-// metres.
+// A viewer counts as served if all chunks that are drawn within kDrawnRadius of it have grid cells of at most
+// kDrawnCell; both in metres.
 constexpr double kDrawnRadius = 32, kDrawnCell = 4;
 
 struct Options {
@@ -133,7 +133,7 @@ void fast(const Options& options) {
     const auto isDrawn = [&](const Mover& mover) {
       return engine.isDrawn(mover.at(seconds), kDrawnRadius, kDrawnCell);
     };
-    // Count the frames in which the slowest viewer is served.
+    // Below, count only frames in which the slowest viewer (the first one) is served.
     if (!isDrawn(movers[0])) return true;
     ++drawn_frames;
     if (first_drawn < 0) first_drawn = seconds;

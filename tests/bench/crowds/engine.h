@@ -51,8 +51,8 @@ class Engine {
   sgm_world* world() const { return world_.get(); }
 
   /// True if at least one chunk is drawn within `radius_m` of a position, and all such chunks have grid cells of at
-  /// most `cell_m`. Chunks without triangles cause no events, so a missing fine chunk shows only by the coarser chunk
-  /// in its place.
+  /// most `cell_m`. Chunks without triangles cause no events. So a missing fine chunk is detected only if a coarser
+  /// chunk is drawn in its place.
   bool isDrawn(const Place& place, double radius_m, double cell_m) const;
   size_t countDrawn(int32_t level) const;
 

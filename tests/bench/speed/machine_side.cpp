@@ -23,7 +23,8 @@ namespace {
 
 using namespace bench;
 
-/// Divides 0..count into equal parts and calls work(first, last) for each on a thread of its own; one is the caller's.
+/// Divides 0..count into equal parts, one for each thread, and calls work(first, last) for each part. The calling
+/// thread is one of the threads.
 template <class Work>
 void shared(int threads, size_t count, const Work& work) {
   std::vector<std::thread> others;

@@ -39,9 +39,9 @@ void limitVectors() {
   throw std::runtime_error(std::string("SGM_BENCH_SET knows no ") + set + " here");
 }
 
-/// Returns the number of ambiguous faces: grid squares in which diagonally opposite samples have equal signs, and the
-/// others the opposite sign. Meshing algorithms connect these differently, so the genus of their surfaces may differ by
-/// one for each.
+/// Returns the number of ambiguous faces. A face is a square of four adjacent samples; it is ambiguous if one diagonal
+/// pair is solid and the other pair is empty. Meshing algorithms connect the surface differently there, so for each
+/// ambiguous face the genus of their surfaces may differ by one.
 size_t ambiguousFaces(const Grid& grid) {
   size_t count = 0;
   const auto nx = static_cast<size_t>(grid.size[0]), ny = static_cast<size_t>(grid.size[1]);

@@ -32,7 +32,8 @@ class Ours {
   /// Evaluates and meshes every chunk of the cube, as an engine would request them. Returns the number of triangles.
   size_t meshChunks();
   /// Meshes the chunks of a level one by one, from derived cells to packed meshes. Returns the milliseconds of each
-  /// chunk that has a surface. Every level has as many chunks along an axis as the cube has at level 0.
+  /// chunk that has a surface. At every level, meshes as many chunks along each axis as the cube has at level 0, so
+  /// coarser levels cover a larger region.
   std::vector<double> surfaceChunks(int level);
   /// Evaluates and meshes the cube as one welded mesh. Returns the number of triangles.
   size_t meshRegion();
@@ -40,7 +41,8 @@ class Ours {
   Mesh welded();
   /// Samples the scene's field at the corners of all cells. Values are distances in units of a cell.
   Grid sample();
-  /// Meshes a grid of samples; normals: also computes normals from its gradient. Returns the number of triangles.
+  /// Meshes a grid of samples. normals: true: also computes a normal for each vertex from the grid's gradient. Returns
+  /// the number of triangles.
   size_t meshGrid(const Grid& grid, bool normals);
   Mesh gridMesh(const Grid& grid);
   /// Meshes the blocks of 32^3 cells of a grid one by one, without normals. Returns the milliseconds of each block that

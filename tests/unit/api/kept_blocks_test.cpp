@@ -142,7 +142,7 @@ TEST_CASE("where the system has no memory left, all that is kept goes before any
     CHECK(blocks.bytes() == 0);
     blocks.release(other, kHalf, 64);
     blocks.release(more, kMore, 64);
-    // Cached blocks are released to make room, even for an allocation of a size that is never cached.
+    // To make room, all cached blocks must be released, even though blocks of the size requested here are never cached.
     CHECK(blocks.allocate(kUnkept * 2, 64) == nullptr);
     void* whole = blocks.allocate(10000, 64);
     CHECK(whole != nullptr);

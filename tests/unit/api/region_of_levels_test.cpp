@@ -1,4 +1,4 @@
-// Tests regions whose chunks have several levels of detail, as pictures use them.
+// Tests regions whose chunks have several levels of detail: pictures of a world are made from such regions.
 
 #include <algorithm>
 #include <cmath>

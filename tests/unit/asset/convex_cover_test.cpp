@@ -28,8 +28,8 @@ double fieldAt(const std::vector<ConvexPiece>& pieces, Point p) {
   return least;
 }
 
-/// Tests points inside the cells of a BSP, on the faces and edges that cells share, and at their corners, where pieces
-/// that only touch would leave a gap.
+/// Tests points inside the cells of a BSP, on the faces and edges that cells share, and at the corners of cells. Pieces
+/// that touch without overlapping would leave gaps at these points.
 void checkCover(const Polyhedron& solid, std::mt19937& random) {
   const auto cells = cutIntoCells(solid);
   REQUIRE(cells);

@@ -280,7 +280,7 @@ TEST_CASE("normals and texture coordinates come as the nodes turn them", "[asset
 }
 
 TEST_CASE("a small file that names much takes little time", "[asset][glb]") {
-  // An accessor with many members, used by many primitives of many nodes.
+  // A file in which one accessor is a JSON object with many members, and is used by many primitives of many nodes.
   std::string members, primitives, nodes;
   for (int i = 0; i < 30000; ++i) members += "\"\":0,";
   for (int i = 0; i < 400; ++i) primitives += std::string(i > 0 ? "," : "") + R"({"attributes":{"POSITION":0}})";

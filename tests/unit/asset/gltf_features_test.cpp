@@ -56,7 +56,7 @@ TEST_CASE("glTF: strips and fans of triangles", "[asset][gltf]") {
   // In a mirrored node, the triangles still face outwards.
   const TriangleMesh mirrored = with(5, {1, 0, 2, 3, 1, 0}, R"(,"scale":[-1,1,1])");
   CHECK(volumeOf(mirrored) == Approx(1.0 / 6));
-  // A primitive without indices uses its points in their order.
+  // A primitive without indices uses its points in the order in which they are stored.
   GltfBuilder bare;
   bare.numbers("VEC3", std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
   bare.mesh(R"("attributes":{"POSITION":0},"mode":6)");
@@ -195,7 +195,8 @@ TEST_CASE("glTF: textures are laid as the material says", "[asset][gltf]") {
   CHECK(isNear(with(laid(R"("scale":[4,2])")).coordinates.values[1], 4, 1));
   CHECK(isNear(with(laid(R"("scale":[4,2])")).coordinates.values[2], 0, -1));
   CHECK(isNear(with(laid(R"("offset":[0.5,0.25])")).coordinates.values[1], 1.5f, 0.75f));
-  // A quarter turn, counter-clockwise as seen: the picture's right becomes its top, where v is smaller in glTF.
+  // A rotation of the picture by a quarter turn, counter-clockwise: its right side comes to the top, where v is smaller
+  // in glTF.
   CHECK(
       isNear(with(laid(R"("rotation":1.5707963267948966,"offset":[0,1],"scale":[2,1])")).coordinates.values[1], 0, 2));
   CHECK(isNear(with(laid(R"("rotation":1.5707963267948966)")).coordinates.values[2], 1, 1));

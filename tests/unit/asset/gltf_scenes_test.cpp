@@ -1,5 +1,5 @@
-// Tests where glTF 2.0 puts triangles: skins, instances and scenes; also its extensions and containers. Each test
-// builds a file, and compares it with values that were calculated by hand.
+// Tests the positions to which the skins, instances and scenes of glTF 2.0 move triangles; also its extensions and
+// containers. Each test builds a file, and compares it with values that were calculated by hand.
 
 #include "gltf_cubes.h"
 
@@ -30,7 +30,8 @@ TEST_CASE("glTF: skins hold points at the joints' places, whatever their node do
       with(R"({"children":[2],"rotation":[0,0,0.7071067811865476,0.7071067811865476]},{"translation":[100,0,0]})",
            R"("joints":[2])", first, whole);
   CHECK(isNear(middleOf(below), {0, 100, 0}));
-  // Points bound to two joints, with weights in bytes: the upper half of the cube follows the second joint by a fifth.
+  // Points bound to two joints, with weights in bytes: for the upper half of the cube, the second joint has a weight of
+  // 1/5.
   const std::string two = R"({"translation":[0,0,0]},{"translation":[0,0,10]})";
   std::vector<uint8_t> numbers(32, 0), weights(32, 0);
   for (size_t i = 0; i < 8; ++i) {

@@ -66,14 +66,15 @@ TEST_CASE("an OBJ file's materials are those of usemtl", "[asset][obj]") {
 
 TEST_CASE("an OBJ file's normals and coordinates leave its points alone", "[asset][obj]") {
   const std::string values = kSquare + "vn 0 0 2\nvn 0 0 1\nvn 1 0 0\nvt 0 1\nvt 0.5\nvt 1 0 7\n";
-  // All corners at a point have the same values, so values are stored per point; a point without a face has zeros.
+  // All face corners at a point have equal normals and equal texture coordinates, so these are stored per point. A
+  // point without a face gets zeros.
   TriangleMesh mesh = objOf(values + "f 1/1/1 2/2/2 3/3/1\nf 1/1/2 3/3/2 2/2/1\n");
   CHECK(mesh.points.size() == 4);
   CHECK(mesh.normals.corners.empty());
   CHECK(mesh.normals.values == std::vector<Normal>{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {}});
   CHECK(mesh.coordinates.corners.empty());
   CHECK(mesh.coordinates.values == std::vector<TextureCoordinates>{{0, 1}, {0.5f, 0}, {1, 0}, {}});
-  // The corners at the first point have different values, so values are stored per corner.
+  // The corners at the first point have different normals, so normals are stored per corner.
   mesh = objOf(values + "f 1//1 2//2 3//1\nf 1//3 3//2 4//1\n");
   CHECK(mesh.points.size() == 4);
   CHECK(mesh.normals.corners == Triangles{{0, 1, 0}, {2, 1, 0}});
@@ -137,7 +138,7 @@ TEST_CASE("what is wrong with an OBJ file is said with its line", "[asset][obj]"
 }
 
 TEST_CASE("an OBJ file's concave polygons are cut, and crossing ones noted", "[asset][obj][polygon]") {
-  // A prism over an L-shaped polygon; its corner list starts at each of the six points in turn.
+  // A prism with an L-shaped base; the list of the base's corners starts at each of its six points in turn.
   const std::string ring[6] = {"2 0", "2 1", "1 1", "1 2", "0 2", "0 0"};
   for (size_t first = 0; first < 6; ++first) {
     std::string points, low, high, sides;

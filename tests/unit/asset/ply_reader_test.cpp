@@ -100,7 +100,8 @@ TEST_CASE("a PLY file's elements may come in any order, and its header end as li
   CHECK(plyRefusal(five + "0.5 1 1\n3 0 1 2\n") ==
         "it has a list without a length within 0 of 1 of the element `face`, counted from 0: the file has more lines "
         "than the header declares, perhaps more vertices, at line 14");
-  // The binary data begin with the byte of a newline, which must not be taken for a part of the header's last line end.
+  // The first byte of the binary data is that of a newline. It must not be taken for a part of the line end that ends
+  // the header.
   std::string binary =
       "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\n"
       "property uchar z\nelement face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
@@ -198,7 +199,8 @@ TEST_CASE("a PLY text's line is a record: what it holds beyond is never taken fo
   const TriangleMesh plain = read(points + faces);
   CHECK(volumeOf(plain) == 4.5);
   CHECK(plain.notes.empty());
-  // Exporters may forget to declare a property of faces or vertices: the additional values are left out, with a note.
+  // Some exporters write values of a property that the header does not declare, for faces or vertices. These values are
+  // left out, with a note.
   const TriangleMesh more = read(points + "3 0 2 1 7 9 9\n3 0 1 3 7 9 9\n3 1 2 3 7 9 9\n3 2 0 3 7 9 9\n");
   CHECK(more.triangles == plain.triangles);
   CHECK(more.notes == NoteTexts{"4 lines have more values than the header declares, the first at line 15: left out"});

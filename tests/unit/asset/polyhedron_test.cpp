@@ -1,5 +1,5 @@
-// Tests making polyhedra from triangles: which meshes close, which points are merged, and which meshes are rejected and
-// where.
+// Tests making polyhedra from triangles: which meshes are closed, which points are merged, which meshes are rejected,
+// and the places that the errors report.
 
 #include "asset/polyhedron.h"
 
@@ -48,8 +48,8 @@ TEST_CASE("triangles that lie in one plane and hang together are one face", "[as
 }
 
 TEST_CASE("edges that corners of others lie on are no gaps", "[asset][polyhedron]") {
-  // The top of the box is divided into two rectangles, whose common corners lie in the middle of edges of the undivided
-  // side faces (T-junctions).
+  // The top of the box is divided into two rectangles. The two corners that these rectangles share lie in the middle of
+  // edges of the side faces, which have no corner there (T-junctions).
   MeshMaker maker;
   maker.box({0, 0, 0}, {2, 1, 2});
   auto& t = maker.mesh.triangles;

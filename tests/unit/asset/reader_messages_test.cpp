@@ -34,7 +34,7 @@ GltfBuilder cubesOf(const std::string& primitives = cubePrimitive()) {
   return file;
 }
 
-/// Repeats a primitive's JSON: once or twice.
+/// The JSON of a primitive, `count` times (1 or 2), as elements of an array.
 std::string times(int count, const std::string& primitive) {
   return count == 1 ? primitive : primitive + "},{" + primitive;
 }
@@ -56,7 +56,7 @@ GltfBuilder boundCube(const std::vector<float>& weights, const std::string& join
   return file;
 }
 
-/// A cube with GPU instances. attributes: JSON of the instances' attributes, whose accessors begin with number 2.
+/// A cube with GPU instances. attributes: JSON of the instances' attributes, which refer to accessors 2 and above.
 GltfBuilder placedCube(const std::string& attributes) {
   GltfBuilder file = cubesOf();
   file.members = R"("nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{)" + attributes + "}}}}]";
@@ -112,8 +112,8 @@ TEST_CASE("glTF: accessors of another type, and sparse ones without whole number
 }
 
 TEST_CASE("glTF: numbers that are not finite are refused with their place", "[asset][gltf]") {
-  // Byte offset of the wrong number, which is the file's last one: it begins `bytes` before the end, because padding
-  // follows.
+  // Byte offset of the last number in the file, which is the invalid one. The number begins `bytes` bytes before the
+  // end of the file; padding follows it.
   const auto lastElement = [](const std::string& file, size_t bytes) { return std::to_string(file.size() - bytes); };
   std::vector<float> weights = fourEach(1);
   weights.back() = kInfinite;
@@ -233,7 +233,7 @@ TEST_CASE("PLY and STL: one byte behind the end, and several faces that are none
 }
 
 TEST_CASE("polygons that take more steps than there are are refused with their place", "[asset][polygon]") {
-  // An L-shaped face, in which a triangle fan around the first corner would cover points outside.
+  // An L-shaped face: a triangle fan around its first corner would also cover points outside of the face.
   TriangleMesh mesh;
   mesh.points = {{2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 0}};
   for (uint32_t k = 2; k < 6; ++k) mesh.triangles.push_back({0, k - 1, k});

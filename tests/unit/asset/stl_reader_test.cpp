@@ -12,7 +12,7 @@ using namespace sgm::asset;
 
 namespace {
 
-/// A binary file with two triangles, whose header states `count`.
+/// A binary file with two triangles. count: the number of triangles that its header states.
 std::string binaryStl(const std::string& header = "binary", uint32_t count = 2) {
   std::string out = header;
   out.resize(80, '\0');

@@ -38,7 +38,7 @@ ChunkGrid gridAt(int level, Int3 at) {
   return {{at.x * kChunkCells * cell, at.y * kChunkCells * cell, at.z * kChunkCells * cell}, cell, level};
 }
 
-// A random program of shapes around `centre`, whose groups have unbounded influence boxes.
+// A random program of shapes around `centre`. The influence boxes of its groups are unbounded.
 std::shared_ptr<const FieldProgram> programAround(uint32_t seed, Int3 centre, int32_t extent) {
   std::mt19937 random(seed);
   RandomProgramOptions options;
@@ -63,7 +63,7 @@ bool sameBytes(const MeshPart& a, const MeshPart& b) {
           std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(Vertex)) == 0);
 }
 
-// Meshes a chunk without pruning, for comparison: the whole program evaluates all samples and attributes.
+// Meshes a chunk without pruning, for comparison: evaluates the whole program for every sample and every attribute.
 ChunkMesh bruteForce(const FieldProgram& field, const ChunkGrid& grid) {
   ChunkMesh mesh;
   ChunkSamples samples;
@@ -169,8 +169,8 @@ TEST_CASE("a seam's vertices have the attributes of the whole field of their lev
 }
 
 TEST_CASE("octrees of chunks whose levels' fields differ are closed, and every vertex link is one cycle") {
-  // One or two fine octants among coarse ones, or one coarse octant among fine ones: faces, edges and corners between
-  // all levels.
+  // One or two fine octants among coarse ones, or one coarse octant among fine ones, so that octants of different
+  // levels meet at faces, edges and corners.
   for (uint32_t seed = 1; seed <= 6; ++seed) {
     std::mt19937 random(seed);
     const uint8_t refined = static_cast<uint8_t>(seed == 1   ? 0x01
@@ -191,8 +191,7 @@ TEST_CASE("octrees of chunks whose levels' fields differ are closed, and every v
           IntBox::everything(), 0, true);
       fields[static_cast<size_t>(level)] = std::make_shared<FieldProgram>(b.finish());
     }
-    // The octree forbids octants that alternate between fine and coarse around an edge; octants are refined until none
-    // do.
+    // Fine and coarse octants must not alternate around an edge of the octree, so octants are refined until none do.
     uint8_t mask = refined;
     auto fine = [&](int x, int y, int z) { return mask >> (x + 2 * y + 4 * z) & 1; };
     for (bool changed = true; changed;) {

@@ -1,9 +1,8 @@
 #pragma once
-// Simulates a device that shares no memory with the host, on a device that shares all of its memory.
-//
-// It reports three types of memory: the device's own memory, which cannot be mapped, and host memory, coherent or
-// cached. Mapping the cached memory gives a copy, which changes only when it is invalidated. Its state is static, as
-// that of Faults, so only one may exist at a time.
+// Simulates a device that shares no memory with the host; the actual device shares all of its memory. The simulated
+// device reports three types of memory: the device's own memory, which cannot be mapped, and host memory, either
+// coherent or cached. Mapping the cached memory gives a copy, which changes only when it is invalidated. The state is
+// static, like that of Faults, so only one simulation may exist at a time.
 
 #include <cstring>
 #include <map>

@@ -10,7 +10,8 @@
 
 namespace sgm {
 
-/// After a failure, the backend can open the device again without delay, because the engine keeps its own device open.
+/// A backend whose Vulkan calls can be made to fail. The engine keeps its device open, so the backend can open the
+/// device again without delay after a failure.
 struct Faulty : vulkan::KeptEngine {
   vulkan::Faults faults;
 
@@ -36,7 +37,8 @@ struct Faulty : vulkan::KeptEngine {
   }
 };
 
-// Tests of other files that use the same device, so that its pipelines are made only once.
+// These tests are defined in other files. They use the same device as the tests here, so that its pipelines are made
+// only once.
 void checkFarDevice(Faulty& faulty);       ///< defined in vulkan_far_test.cpp
 void checkMeshesThatStay(Faulty& faulty);  ///< defined in vulkan_resident_faults_test.cpp
 

@@ -1,4 +1,4 @@
-// Tests the passes over grids for every instruction set against the scalar ones, bit by bit.
+// Tests the passes over grids: for every instruction set, the results must equal those of the scalar code bit by bit.
 
 #include <sys/mman.h>
 
@@ -128,7 +128,8 @@ Meshed meshed(const MeshKernels& kernels, GridJob job, size_t slabs, bool normal
   return result;
 }
 
-/// Smooth values, noise of many magnitudes, or both; some are far beyond the range of quantised values, some nearly 0.
+/// Returns smooth values, noise of many magnitudes, or the sum of both. Some values are far beyond the range of
+/// quantised values; some are nearly 0.
 std::vector<float> someValues(std::mt19937& random, size_t count) {
   std::vector<float> values(count);
   std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
@@ -141,7 +142,7 @@ std::vector<float> someValues(std::mt19937& random, size_t count) {
   return values;
 }
 
-/// The grid's values as samples of a chunk, for the polygonizer of chunks.
+/// Converts the samples of a grid to samples of a chunk, for the polygonizer that meshes chunks.
 ChunkSamples chunkOf(const GridJob& job) {
   ChunkSamples samples;
   for (size_t z = 0; z < kChunkSamples; ++z) {
@@ -194,7 +195,8 @@ TEST_CASE("a grid of a chunk's size is meshed as a chunk is") {
 }
 
 TEST_CASE("no chord of a cube's loop of up to five edges is forbidden") {
-  // The constant kForbids in cells.inl relies on this: loops of up to five edges need no check for forbidden diagonals.
+  // kForbids in cells.inl skips the check for forbidden diagonals in loops of up to five edges. This test shows that
+  // these loops have no forbidden diagonals.
   size_t short_loops = 0, forbidden = 0;
   for (size_t at = 0; at < kCubeLoopBytes; at += size_t{kCubeLoops[at]} + 1) {
     const size_t n = kCubeLoops[at];

@@ -9,8 +9,9 @@
 
 namespace sgm::vulkan {
 
-/// The pipelines of one device, made once for all device objects that borrow the device, because software Vulkan takes
-/// seconds for each. The state is static, so only one KeptPipelines may exist at a time; any thread may make pipelines.
+/// The pipelines of one device. Each is made only once for all device objects that borrow the device, because software
+/// Vulkan takes seconds to make a pipeline. The state is static, so only one KeptPipelines may exist at a time; any
+/// thread may make pipelines.
 class KeptPipelines {
  public:
   static void wrap(DeviceTable& table) {

@@ -1,5 +1,5 @@
-// Tests lists of primitives and boxes of lattice points, for every instruction set, against evaluating one instruction
-// and one point after another.
+// Tests the evaluation of lists of primitives and of boxes of lattice points, for every instruction set. The reference
+// evaluates one instruction and one point after another.
 
 #include <random>
 
@@ -80,8 +80,8 @@ class ListMaker {
   }
   FieldProgram finish() {
     FieldProgram program = builder_.finish();
-    // Three quarters of the groups are not guarded: as for most groups after pruning, all samples are known to lie
-    // inside their bounds.
+    // A quarter of the groups are guarded by their bounds. The others are like most groups after pruning: all samples
+    // are known to lie inside the group's bounds.
     for (ProgramGroup& g : program.groups) g.guarded = within(0, 3) == 0;
     return program;
   }
@@ -98,7 +98,8 @@ FieldProgram listedProgram(std::mt19937& random) {
   return maker.finish();
 }
 
-/// A plane displaced by noise: with periods of many lattice steps, or with octaves down to less than one step.
+/// A plane displaced by noise. coarse: all periods are longer than three lattice steps; otherwise, octaves may be finer
+/// than a step.
 FieldProgram noisyProgram(std::mt19937& random, const LatticeBox& box, bool coarse) {
   ProgramBuilder builder(1 + static_cast<int32_t>(random() % 1024), false, 0);
   Frame frame;
@@ -150,7 +151,8 @@ TEST_CASE("a box of a lattice is evaluated as its points are") {
     CAPTURE(round);
     LatticeBox box;
     for (int axis = 0; axis < 3; ++axis) {
-      // Boxes of 8 or 9 points along each axis, as bricks have, or of 1 to 16 points, the most that a block can hold.
+      // Boxes of 8 or 9 points along each axis, like the bricks into which the mesher divides a chunk, or of 1 to 16
+      // points, the most that a block can hold.
       box.size[static_cast<size_t>(axis)] = round % 3 == 0 ? 1 + random() % 16 : 8 + random() % 2;
       box.origin[axis] = static_cast<int32_t>(random() % 12000) - 9000;
     }

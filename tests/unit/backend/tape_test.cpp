@@ -109,8 +109,8 @@ TEST_CASE("what a sum adds is a part of the addition, unless others read it", "[
   CHECK(summed(0.25f, 1).count(Op::morph) == 1);
   CHECK(summed(0.25f, 2).count(Op::kernel) == 0);
   CHECK(summed(0.25f, 2).count(Op::morph) == 1);
-  // If the amount of a morph is 0, 1 or beyond, pruning may remove one of the two shapes, but only while the morph is
-  // an instruction of its own.
+  // If the amount of a morph is at most 0 or at least 1, pruning may remove one of its two shapes. Pruning needs the
+  // morph as an instruction of its own, so such a morph is not merged into the sum.
   for (const float end : {-0.5f, 0.0f, 1.0f, 2.0f}) {
     CAPTURE(end);
     CHECK(summed(end, 0).count(Op::morph) == 1);

@@ -1,5 +1,5 @@
-// Tests how much host memory meshing on a device allocates once buffers and pipelines exist: only the meshes, and a
-// number of small blocks that depends on the number of batches, and not of chunks.
+// Tests the host memory that a device backend allocates for a batch once its buffers and pipelines exist: the meshes,
+// and small blocks whose number depends on the number of batches, not of chunks.
 
 #include <atomic>
 

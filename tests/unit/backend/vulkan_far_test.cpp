@@ -68,7 +68,7 @@ void overflowFar(Faulty& faulty) {
   }
 }
 
-/// Makes submissions and waits fail, both of the batch and of its download.
+/// Injects failures into the calls that submit work or wait for it, both for the batch and for its download.
 void failFar(Faulty& faulty) {
   const std::vector<ChunkJob> jobs = spheres(1, 5);
   uint64_t on_cpu = 0;
@@ -123,8 +123,8 @@ void stayFar(Faulty& faulty) {
   }
 }
 
-/// Makes the memory for resident meshes run out: the meshes are still returned, and later meshes stay on the device
-/// again.
+/// Tests that if the memory for resident meshes runs out, the meshes are still returned, and later meshes stay on the
+/// device again.
 void stayWithoutMemory(Faulty& faulty) {
   std::vector<ChunkJob> jobs = spheres(5, 4);
   for (ChunkJob& job : jobs) job.resident = true;
@@ -196,7 +196,7 @@ void endAnywhere(Faulty& faulty) {
       if (held.size() > 8) held.resize(8);
       other.join();
     }
-    // The device is lost while parts on it are still referenced.
+    // The device is lost while mesh parts in its memory are still referenced.
     faulty.faults.arm("vkQueueSubmit", 1, VK_ERROR_DEVICE_LOST);
     const std::vector<ChunkJob> jobs = spheres(kSeed, 3);
     checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));

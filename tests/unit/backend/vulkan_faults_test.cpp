@@ -54,7 +54,8 @@ void loseDevices(Faulty& faulty) {
     faults.disarm();
     const BackendCounters after = machine.vulkan->counters();
     REQUIRE(after.chunks == before.chunks + jobs.size());
-    // If the query of the progress fails, the backend waits for the device, and so detects its loss.
+    // If the query of the progress fails, the backend waits for the device instead. This wait detects that the device
+    // is lost.
     REQUIRE(after.device_lost == before.device_lost + struck);
     REQUIRE(after.on_cpu == before.on_cpu + (struck ? jobs.size() : 0));
     losses += struck;
@@ -66,7 +67,7 @@ void loseDevices(Faulty& faulty) {
   }
 }
 
-/// Makes calls for memory or pipelines fail: the CPU must mesh the chunks concerned.
+/// Injects failures into the calls that allocate memory or create pipelines: the CPU must mesh the affected chunks.
 void failCalls(Faulty& faulty) {
   static const std::pair<const char*, VkResult> kFailures[] = {
       {"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY},
@@ -133,7 +134,8 @@ void cancelBatches(Faulty& faulty) {
   REQUIRE(batch);
   (*batch)->cancel();
   CHECK(cancelled(**batch));
-  // The progress callback cancels the batch; the CPU meshes the first chunk, because the device has no room for any.
+  // The progress callback cancels the batch; the CPU meshes the first chunk, because the device's buffers have no room
+  // for any chunk.
   std::atomic<int> told{0};
   batch = machine.vulkan->submit(jobs, [&] { return ++told < 3; });
   REQUIRE(batch);
@@ -240,8 +242,8 @@ void keepPipelines(Faulty& faulty) {
 void failThreads(Faulty& faulty) {
   std::vector<ChunkJob> jobs = spheres(7, 3);
   for (ChunkJob& job : jobs) job.prompt = true;
-  // The driver may also fail to start its own threads; on this device, earlier tests have already made it compile the
-  // pipelines.
+  // The driver's own threads may fail to start as well. Here they are not needed: earlier tests have already made the
+  // driver compile this device's pipelines.
   const VulkanMachine machine = faulty.machine();
   REQUIRE(machine);
   const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);

@@ -1,5 +1,5 @@
-// Tests that urgent jobs do not wait for a device that is not ready: the CPU meshes them until it is, with the same
-// bytes.
+// Tests that urgent jobs do not wait for a device that is not ready: until it is ready, the CPU meshes them, with the
+// same bytes.
 
 #include <chrono>
 #include <condition_variable>

@@ -1,5 +1,5 @@
-// Tests failures of the device while meshes stay on it or are uploaded to it: the meshes must be the same, those that
-// could not stay must be reported as absent, and those of the next batch must stay again.
+// Tests failures of the device while meshes stay on it or are uploaded to it. The meshes must be the same, meshes that
+// could not stay must be reported as absent, and the meshes of the next batch must stay on the device again.
 
 #include <chrono>
 #include <iostream>
@@ -90,7 +90,7 @@ constexpr Failure kRefusals[] = {
     {"vkResetCommandPool", VK_ERROR_OUT_OF_DEVICE_MEMORY},
     {"vkCreateBuffer", VK_ERROR_OUT_OF_HOST_MEMORY},
     {"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY},
-    {"vkAllocateMemory", VK_ERROR_UNKNOWN},  // after this error, the backend does not try a smaller block
+    {"vkAllocateMemory", VK_ERROR_UNKNOWN},  // for this error, the backend does not try a smaller block
     {"vkMapMemory", VK_ERROR_MEMORY_MAP_FAILED},
 };
 
@@ -161,7 +161,8 @@ class Strikes {
   unsigned partly = 0;   ///< number of rounds in which only some meshes stayed on the device
 
  private:
-  /// Waits until only `bytes` are resident: after a failed wait, memory is freed only when its copy has ended.
+  /// Waits until only `bytes` are resident, for at most 120 s. After a failed wait for the device, the memory of a part
+  /// is freed only when the copy into it has ended.
   BackendCounters countersOnceOnlyThese(uint64_t bytes) const {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     while (counters().resident != bytes && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
@@ -202,8 +203,8 @@ class Strikes {
   uint64_t largest_ = 0;  ///< size in bytes of the largest chunk's memory
 };
 
-/// Makes any call fail that keeps meshes on the device or uploads them, with enough memory and with memory for some
-/// meshes only.
+/// Makes random Vulkan calls fail while meshes are kept on the device or uploaded to it: first with enough memory, then
+/// with memory for only some of the meshes.
 void strikeMeshesThatStay(Faulty& faulty) {
   constexpr uint32_t kSeed = 20'260'104;
   std::cout << "striking meshes that stay, seed " << kSeed << std::endl;

@@ -22,7 +22,7 @@ namespace {
 class Exchanged {
  public:
   using Part = std::shared_ptr<const DevicePart>;
-  /// Stores these parts in place of the previous ones, and destroys the latter.
+  /// Stores these parts, and destroys the parts that were stored before.
   void pass(std::vector<Part> parts) {
     const std::scoped_lock lock(mutex_);
     std::swap(parts, parts_);
@@ -114,7 +114,8 @@ TEST_CASE("threads share what stays on a lent device, and its loss", "[vulkan][t
   if (!VulkanMachine()) return;
   // The validation layer is off, because its locks would hide data races.
   vulkan::KeptEngine kept(vulkan::Validation::none);
-  // After a loss, the lost and the new borrowed device exist together for a while, and share the engine's queue.
+  // After a loss, the lost device and the new one, both borrowed from the engine, exist together for a while. They
+  // share the engine's queue, which this mutex guards.
   std::mutex queue;
   std::optional<vulkan::DeviceTable> replaced;
   VulkanBackendOptions options;

@@ -63,7 +63,8 @@ TEST_CASE("who waits for a loop helps the job system meanwhile", "[threads]") {
   bool in_time = false;
   const std::thread::id caller = std::this_thread::get_id();
   parallelFor(jobs, 2, [&](size_t) {
-    // The two indices run on two threads; only the caller's ends before the caller calls help().
+    // The two indices run on two threads. The caller's index ends at once; the other index waits until the caller calls
+    // help().
     ++begun;
     while (begun < 2) std::this_thread::yield();
     if (std::this_thread::get_id() == caller) return;

@@ -75,7 +75,7 @@ TEST_CASE("bytes are read and written at places, and cut off", "[base][files]") 
   char two[2];
   CHECK(readAt(file.number(), two, 2, 5) == 2);
   CHECK(std::memcmp(two, "b6", 2) == 0);
-  CHECK(readNext(file.number(), two, 2) == 0);  // readAt() leaves the position unchanged, at the end of the file
+  CHECK(readNext(file.number(), two, 2) == 0);  // at the end of the file: readAt() did not move the position
   CHECK(readAt(file.number(), two, 2, 100) == 0);
   CHECK(cutFile(file.number(), 3) == 0);
   CHECK(contentOf(path) == "012");

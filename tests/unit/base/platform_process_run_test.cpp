@@ -93,7 +93,7 @@ TEST_CASE("a child that says too much is ended", "[base][process][threads]") {
     run.max_output = most;
     CHECK((outputOf(isolatedShell("printf 12345"), run).stop == Stop::none) == (most >= 5));
   }
-  // Only the first 4,096 bytes of standard error are kept, and its size has no limit.
+  // The child may write any amount to standard error; only the first 4,096 bytes are kept.
   const ProcessOutput loud = outputOf(isolatedShell("yes | head -c 1000000 >&2; echo done"));
   CHECK(loud.stop == Stop::none);
   CHECK(loud.output == "done\n");
@@ -111,7 +111,7 @@ TEST_CASE("a grandchild that holds the streams is not waited for", "[base][proce
   CHECK(watch.seconds() < 20);
   CHECK(said.exit.succeeded());
   CHECK(endsSoon(std::stoi(said.output)));
-  // A grandchild in a session of its own that continues to write is not waited for, and not killed.
+  // A grandchild that has a session of its own and continues to write is neither waited for nor killed.
   const ProcessOutput escaped =
       outputOf(isolatedShell("told=$(mktemp -u); mkfifo $told; setsid sh -c 'echo $$; : >$0; exec yes >&2' $told & "
                              "read -r end <$told; rm $told; sleep 0.3; echo done"));

@@ -16,7 +16,7 @@ using Kind = ProcessExit::Kind;
 
 namespace {
 
-/// Sets an environment variable during its lifetime.
+/// Sets an environment variable for the lifetime of this object.
 class Variable {
  public:
   Variable(const char* name, const std::string& value) : name_(name) {
@@ -92,8 +92,8 @@ TEST_CASE("a name without a slash is looked for in PATH", "[base][process]") {
   CHECK(missing.error().message == "sgm_test_program cannot be run: No such file or directory");
   makeScript(folder, "second/sgm_test_program", "echo second");
   CHECK(outputOf(named("sgm_test_program")).output == "second\n");
-  // A file that cannot be executed is skipped if a later folder of the path has the program; otherwise it is the reason
-  // of the error.
+  // A file that cannot be executed is skipped if a later folder of PATH has the program. Otherwise, the error states
+  // why this file cannot be executed.
   makeFile(folder, "first/sgm_test_program", "text");
   CHECK(outputOf(named("sgm_test_program")).output == "second\n");
   std::filesystem::remove(second + "/sgm_test_program");
@@ -152,7 +152,7 @@ TEST_CASE("streams lead to files, to each other and to nothing", "[base][process
   CHECK(status.bytes == std::string("complaint\n").size());
   settings.output = settings.error = {Stream::none};
   CHECK(outputOf(settings).exit.succeeded());
-  // The child received a copy of the descriptor, which is still open here.
+  // The child received a copy of the descriptor. The original is still open in this process.
   CHECK(fcntl(input.number(), F_GETFD) >= 0);
   settings.input = {Stream::file, 100'000};
   CHECK_FALSE(Process::start(settings));

@@ -19,7 +19,7 @@ inline platform::ProcessSettings shell(const std::string& command) {
   return settings;
 }
 
-/// A shell command as from shell(), but in a process group and an environment of its own.
+/// Like shell(), but the command runs in its own process group, with its own environment.
 inline platform::ProcessSettings isolatedShell(const std::string& command) {
   platform::ProcessSettings settings = shell(command);
   settings.environment = {"PATH=/usr/local/bin:/usr/bin:/bin"};

@@ -87,7 +87,8 @@ TEST_CASE("exponential and logarithm stay within the stated relative error") {
     const double y = i % 2 ? near_one : std::exp2(std::uniform_real_distribution<double>(-1070, 1020)(random));
     logarithm.add(relative(detLog(y), std::log(extended(y))), y);
   }
-  // The smallest double is 4.94e-324. Rounding a subnormal number may cost half of that; the bound is slightly larger.
+  // The smallest positive double is 4.94e-324. Rounding changes a subnormal number by up to half of that; the bound is
+  // slightly larger.
   Worst subnormal;
   for (int i = 0; i < kSamples; ++i) {
     const double x = std::uniform_real_distribution<double>(-750.0, -708.4)(random);

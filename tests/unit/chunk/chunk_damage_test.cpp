@@ -36,8 +36,8 @@ void pinch(Body& body, std::mt19937& random) {
   }
 }
 
-/// Moves a vertex to the midpoint of two others; moves `from` by one step along an axis if the midpoint is not an
-/// integer there.
+/// Moves a vertex to the midpoint of two others. If a coordinate of the midpoint is not an integer, first moves `from`
+/// by one step along that axis.
 void putBetween(Body& body, uint32_t moved, uint32_t from, uint32_t to) {
   Vertex &v = body.vertices[moved], &a = body.vertices[from];
   const Vertex& b = body.vertices[to];
@@ -191,7 +191,8 @@ const std::vector<Damage>& damages() {
            const double length = std::sqrt(static_cast<double>(terms.square));
            across = {static_cast<int>(100 * terms.x / length), static_cast<int>(100 * terms.y / length),
                      static_cast<int>(100 * terms.z / length)};
-           // Rejects slivers and small triangles; the loop's condition rejects middles near the chunk's border.
+           // The loop's condition rejects triangles whose middle is near the chunk's border. Slivers and small
+           // triangles are rejected by setting the middle to such a place.
            if (isSliver(terms) || terms.square < int64_t{1} << 28) middle[0] = 0;
          } while (*std::min_element(middle.begin(), middle.end()) < 200 ||
                   *std::max_element(middle.begin(), middle.end()) > kChunkCells * kSubcell - 200);

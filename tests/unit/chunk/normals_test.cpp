@@ -8,7 +8,8 @@ using namespace sgm;
 
 namespace {
 
-/// Share of the mesh's area in triangles whose vertex normals point to the wrong side of the triangle.
+/// Returns the share of the mesh's area that is in triangles with a vertex normal that points to the back of the
+/// triangle.
 double shareAstray(const std::string& rules) {
   const WorldField world(settingsOf("sgm 1; units m; start Main;\n" + rules, 128), std::pmr::get_default_resource());
   std::vector<ChunkRequest> requests;

@@ -17,7 +17,7 @@ using namespace sgm;
 
 namespace {
 
-/// Rotated boxes, some of which coarse levels omit, in a world whose border cuts one of them.
+/// Rotated boxes. Coarse levels omit some of them, and the world's border cuts one of them.
 const char* const kBoxes =
     "sgm 1; units m; domain finite box(160m, 160m, 160m) empty; start Heap;\n"
     "rule Heap {\n"

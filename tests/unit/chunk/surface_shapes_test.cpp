@@ -31,7 +31,8 @@ std::string passages() {
          "let hub(c) = c.point(jitter 0.2);\n";
 }
 
-/// Meshes a cube with an edge of eight chunks of level 0, whose lowest chunk is (low, low, low), in chunks of `level`.
+/// Meshes a cube of the world in chunks of `level`. The cube is eight chunks of level 0 wide, and its lowest chunk of
+/// level 0 is (low, low, low).
 std::vector<ChunkSurface> surfacesFrom(const WorldField& field, int level, int32_t low) {
   std::vector<ChunkRequest> requests;
   const int32_t first = low >> level, last = (low + 8) >> level;
@@ -151,7 +152,7 @@ TEST_CASE("a seam's vertices have the coordinates and blends of the coarser chun
     size_t met = 0, same = 0, blends = 0;
     const int32_t low = in_cave ? 2 : -4;
     for (int32_t i = 0; i < 512; ++i) {
-      // Uses only chunks whose high x face lies in a face of a chunk of level 1.
+      // Uses only chunks whose upper x face lies in a face of a chunk of level 1.
       const Int3 at{low + (i & 7), low + (i >> 3 & 7), low + (i >> 6)};
       if ((at.x & 1) == 0) continue;
       ChunkRequest fine;
@@ -230,8 +231,8 @@ TEST_CASE("where two materials meet one passes into the other over two cells, on
     std::vector<Int3> points;
     std::vector<TexturePoint> normals;
     for (int i = -40; i <= 40; ++i) {
-      // The points lie just below the common face of the two boxes: on the face itself, both are equally near, and the
-      // first one would win.
+      // The points lie just below the common face of the two boxes. On the face itself, both boxes are equally near,
+      // and the first one would be chosen.
       points.push_back({static_cast<int32_t>(-154 + i * cell / 16), 2600, 100});
       normals.push_back({0, 2, 0});
     }

@@ -210,7 +210,7 @@ TEST_CASE("a log of a damaged base is not played into the next", "[masters]") {
   writeBytes(file, "no database any more");
   writeBytes(folder.path / "masters.db-wal", "some log");
   REQUIRE(openBase(file));
-  // SQLite may have deleted the write-ahead log itself, because it was invalid.
+  // SQLite may itself have deleted the write-ahead log, because the log was invalid.
   const auto aside = folder.path / "masters.db.damaged-1-wal";
   CHECK((!std::filesystem::exists(aside) || contentOf(aside) == "some log"));
   CHECK(same(*readBase(file).set, builtInMasters()));

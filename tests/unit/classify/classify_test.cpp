@@ -68,7 +68,8 @@ TEST_CASE("single bars have one error however far apart, and the earth mover see
 
 TEST_CASE("of curvature the error is that of the shares' roots, of the paper's modes that of the shares",
           "[classify]") {
-  // Both histograms differ from `flat` by a tenth: `convex` has it in one other bin, `both` in two.
+  // Both histograms differ from `flat` by a share of 0.1: in `convex`, this share is in one other bin; in `both`, it is
+  // divided between two bins.
   const std::vector<double> flat{0, 1, 0}, convex{0, 0.9, 0.1}, both{0.05, 0.9, 0.05};
   CHECK(classError(HistogramMode::printed, flat, convex) == meanSquaredError(flat, convex));
   CHECK(classError(HistogramMode::corrected, flat, both) == meanSquaredError(flat, both));

@@ -143,7 +143,8 @@ TEST_CASE("a context that cannot be made current takes no call", "[cuda]") {
   const std::vector<ChunkJob> jobs = spheres(23, 3);
   const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
   FakeDriver::State& state = machine.driver.state();
-  // Destroying the context releases everything in it, so the test may leave objects.
+  // The backend may leave objects behind in a context that cannot be made current: destroying the context releases
+  // them.
   state.may_leave = true;
   for (unsigned nth = 1; nth < 40; ++nth) {
     CAPTURE(nth);

@@ -92,7 +92,8 @@ struct Stayed {
   size_t wanted = 0, there = 0;
 };
 
-/// Checks that all parts of a chunk stay on the device or none, and compares their bytes with the meshes.
+/// Checks, for each chunk, that either all of its parts stay on the device or none. Compares the bytes of the parts on
+/// the device with those of the meshes.
 Stayed checkStayed(const std::vector<ChunkMesh>& meshes) {
   Stayed stayed;
   for (const ChunkMesh& mesh : meshes) {

@@ -52,7 +52,7 @@ struct FakeStream {
 };
 struct FakeEvent {
   FakeStream* stream = nullptr;
-  uint64_t after = 0;  ///< number of pieces of work of the stream after which the event has occurred
+  uint64_t after = 0;  ///< the event occurs when the stream has done this many pieces of work
   bool asked = false;
 };
 /// Imported memory of another API, in the form in which Mesa's software device shares it: a file with a header that
@@ -276,8 +276,8 @@ DriverTable makeTable() {
       fake_blocks.erase(hostOf(memory));
       std::free(hostOf(memory));
     });
-    // If no other work is queued, the memory is freed at once, so that a later use by another stream is a detectable
-    // error.
+    // If no other work is queued, the memory is freed at once, so that a memory checker detects a later use by another
+    // stream.
     if (of(stream).queued.size() == 1) of(stream).finish(of(stream).given);
     --fake_state.device_blocks;
     return before("memFreeAsync");

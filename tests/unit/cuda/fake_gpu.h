@@ -1,7 +1,7 @@
 #pragma once
 // A simulated CUDA driver: its GPU's memory is host memory, its kernels run on the CPU (host_device.h), and it counts
-// the objects that it has created. Only one may exist at a time, because a driver's functions have no object; any
-// thread may call them.
+// the objects that it has created. Only one simulation may exist at a time, because the functions of a driver are not
+// members of an object. Any thread may call these functions.
 
 #include <array>
 #include <cstdint>
@@ -27,7 +27,8 @@ struct FakeState {
   int fail_result = 0;
   bool lasts = false;
   bool may_leave = false;  ///< set after a fatal error: objects may remain in a context that cannot be used any more
-  bool unsure = false;     ///< set after a fatal error or a failed wait: it is unknown whether memory is still in use
+  /// set after a fatal error or a failed wait: it is then unknown whether the GPU still uses memory
+  bool unsure = false;
 };
 
 FakeState& fakeState();

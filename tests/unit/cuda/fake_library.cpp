@@ -33,8 +33,8 @@ const sgm::cuda::DriverTable table = makeTable();
 
 }  // namespace
 
-// Defines an exported function of each name that jumps to the table's function, so that parameters of any type are
-// passed on unchanged.
+// For each name, defines an exported function that jumps to the function in the table, so that parameters of any type
+// are passed on unchanged.
 #define SGM_CU(entry, name, parameters)                                       \
   extern "C" __attribute__((visibility("hidden"))) void* sgm_fake_##entry;    \
   void* sgm_fake_##entry = reinterpret_cast<void*>(table.entry);              \

@@ -1,6 +1,6 @@
 #pragma once
-// Runs the CUDA kernels on the CPU, block by block and thread by thread, as a GPU would, on a machine without one. For
-// tests, not for speed.
+// Runs the CUDA kernels on the CPU of a machine without a GPU, block by block and thread by thread, in the way that a
+// GPU runs them. For tests, not for speed.
 
 #include <functional>
 #include <optional>
@@ -10,8 +10,8 @@
 namespace sgm::cuda {
 
 struct HostDeviceOptions {
-  /// Seed by which the order of a launch's blocks, and of the threads in each phase, is shuffled: the order must not
-  /// matter. nullopt: ascending order.
+  /// Seed that shuffles the order in which the blocks of a launch run, and the threads in each phase: results must not
+  /// depend on this order. nullopt: ascending order.
   std::optional<uint32_t> shuffled;
   /// Called before every call that can fail, with the call's name ("allocate", "launch"...). If it returns an error,
   /// the call fails with that error.

@@ -1,5 +1,5 @@
-// Tests meshes of the CUDA backend in memory of a Vulkan device that draws them, and failures on either side. CUDA is a
-// simulated driver (fake_gpu.h) whose GPU stands for the Vulkan device.
+// Tests meshes that the CUDA backend places in the memory of a Vulkan device, which draws them, and failures of either
+// API. CUDA is simulated (fake_gpu.h): its GPU pretends to be the Vulkan device.
 
 #include "cuda/placed_meshes.h"
 #include "seed.h"
@@ -21,8 +21,8 @@
 
 using namespace sgm;
 
-/// Suppresses reports of leaks in the validation layer, which keeps objects in reference cycles. The layer itself
-/// checks that our objects are destroyed, when the device is destroyed.
+/// Suppresses reports of leaks in the validation layer, which keeps objects in reference cycles. When a device is
+/// destroyed, the layer itself checks that our objects were destroyed before.
 extern "C" const char* __lsan_default_suppressions(void);
 extern "C" const char* __lsan_default_suppressions(void) { return "leak:libVkLayer_khronos_validation.so"; }
 
@@ -72,7 +72,7 @@ class BatchOf {
       for (std::byte& byte : bytes_[c]) byte = static_cast<std::byte>(random());
       memory_.emplace_back();
       REQUIRE(memory_.back().grow(stream, cuda::MemoryKind::device, of_vertices + of_indices));
-      // The memory of the simulated GPU belongs to this process.
+      // The memory of the simulated GPU belongs to this process, so memcpy() can write to it.
       std::memcpy(memory_.back().data(), bytes_[c].data(), bytes_[c].size());
       body.vertices = reinterpret_cast<const Vertex*>(memory_.back().data());
       body.indices = reinterpret_cast<const uint32_t*>(memory_.back().data() + of_vertices);
@@ -116,7 +116,8 @@ class BatchOf {
 
 bool there(const DeviceParts& parts) { return static_cast<const vulkan::VulkanPart&>(*parts[0]).memory().there(); }
 
-/// Waits until freed memory is released, which happens once the device that draws has completed the work that uses it.
+/// Waits until all freed memory is released, which happens once the drawing device has completed the work that uses the
+/// memory. Returns the number of bytes that the store still has.
 uint64_t bytesAtRest(MeshStore& store) {
   for (int tries = 0; store.bytes() != 0 && tries < 60'000; ++tries) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -265,7 +266,8 @@ TEST_CASE("a device opened after a loss imports the memory anew", "[cuda]") {
     CHECK(gpu.driver.state().imports == 1);
     before = std::move(placement);
   }
-  // Blocks stay valid as long as parts in them are referenced; imports and the device that imported them do not.
+  // A block of memory stays valid as long as any mesh part in it is referenced. A device's import of the block ends
+  // with that device.
   CHECK(there(before->chunks[0]));
   CHECK(gpu.driver.state().imports + gpu.driver.state().contexts == 0);
   before.reset();

@@ -1,5 +1,5 @@
 #pragma once
-// Compiles and derives grammars in one line, for tests.
+// Functions for tests that compile and derive a grammar in one call.
 
 #include <memory>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// Lower layers that are rock above a height, and air below it.
+/// Stands for the lower layers: they are rock above a height, and air below it.
 class Ceiling : public LowerLayers {
  public:
   explicit Ceiling(int32_t height) : height_(height) {}

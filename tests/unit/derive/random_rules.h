@@ -87,7 +87,8 @@ class RandomRules {
     return out + "R" + std::to_string(level_ + 1) + "(" + length() + "); }";
   }
 
-  /// Calls of a rule that uses a value twice; interval arithmetic alone gives no finite bound for it.
+  /// Calls of rules that use their parameter r twice in one expression. Interval arithmetic alone gives no finite bound
+  /// for this expression.
   std::string correlated() {
     return pick({"", "Swollen(rand(1m, 4m)); ", "Swollen(size_); ", "Share(rand(0.5m, 5m)); ", "Share(2*size_); "});
   }
@@ -247,7 +248,7 @@ class RandomRules {
       case 24:
         return sized() + "treemap" + rooms(depth);
       case 25:
-        // The sizes give so few tiles that each tile may have many contents.
+        // The sizes give only a few places for tiles, so that each tile may have many contents.
         return pick({"size(2m, 1m, 3m) ", "size(min(r, 3m), 2m, rand(0.5m, 2m)) "}) + "wfc " +
                pick({"1m", "(2m, 1m, 1.5m)", "rand(1m, 3m)", "(r, 2m, max(size_, 1m))"}) + tiles(depth);
       case 26:

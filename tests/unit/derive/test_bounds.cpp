@@ -48,7 +48,7 @@ TEST_CASE("bounds hold every point of the level set, for every kind of shape") {
     }
   }
   CHECK(inside > static_cast<int>(3 * rounds(3000)));
-  CHECK(seen.size() == 21);  // all shape kinds but the half-space
+  CHECK(seen.size() == 21);  // 21 is the number of all shape kinds except the half-space
 }
 
 TEST_CASE("bounds of leaves are tight") {
@@ -59,8 +59,8 @@ TEST_CASE("bounds of leaves are tight") {
     const Shape& s = random.chunk.shapes[root];
     if (s.kind == ShapeKind::morph_power) continue;
     const IntBox box = levelBounds(random.chunk, root, 0);
-    // A rotated box touches its bounds only at corners, and a ball only at six points, so random points rarely do:
-    // compares extents instead.
+    // Compares extents instead of testing random points, because these rarely lie near the bounds: a rotated box
+    // touches its bounds only at corners, and a ball only at six points.
     for (int axis = 0; axis < 3; ++axis) {
       const double extent = static_cast<double>(box.hi[axis]) - box.lo[axis];
       double most = 0;

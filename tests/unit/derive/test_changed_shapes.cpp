@@ -1,5 +1,5 @@
-// Tests that no change of a member of a derived cell goes unnoticed: the chunk's hash changes, and the change is among
-// the changed shapes.
+// Tests that every change of a member of a derived cell is noticed: it changes the cell's hash, and changedShapes()
+// reports changed shapes.
 
 #include "catch.h"
 #include "derive/changed_shapes.h"

@@ -16,7 +16,7 @@ TEST_CASE("translation moves bounds, and the hash tells it; back again is the sa
     anchor.frame.origin = {1, 2, 3};
     chunk.anchors.push_back(anchor);
     const IntBox before = levelBounds(chunk, root, 0);
-    if (!isBounded(before)) continue;  // derivation emits no unbounded group
+    if (!isBounded(before)) continue;  // derivation never emits an unbounded group, so skip such groups
     chunk.groups.push_back({root, false, before, PathKey{seed}});
     const uint64_t hash = hashChunk(chunk);
     const Int3 far{2000000000, -1999990000, 123456789};

@@ -101,8 +101,8 @@ TEST_CASE("a passage ends where the other cell has its chamber") {
   for (const auto& [cell, hub] : hubs) {
     const std::vector<Int3> ends = corners(derived(*program, cell));
     for (size_t i = 0; i + 1 < ends.size(); ++i) {
-      // Each passage starts at this cell's hub, so the corner before it is the end of the previous passage: another
-      // cell's hub.
+      // Each passage starts at this cell's hub. So the corner before a hub is the end of the previous passage, which is
+      // the hub of another cell.
       const bool first = ends[i] == hub;
       if (!first || i == 0) continue;
       bool found = false;

@@ -10,7 +10,8 @@ using namespace sgm;
 
 namespace {
 
-/// Number of connected components into which the links inside a block of grammar cells join the cells.
+/// Number of connected components of a graph: its nodes are the grammar cells of a block, its edges the links between
+/// these cells.
 int components(const Lattice& lattice, Int3 corner, Int3 extent, int tree, double extra) {
   const auto index = [&](Int3 c) {
     return static_cast<size_t>(((c.z - corner.z) * extent.y + (c.y - corner.y)) * extent.x + (c.x - corner.x));
@@ -83,8 +84,8 @@ TEST_CASE("the share of extra links is the one asked for") {
       if (!lattice.linked(face, 3, 0.0) && lattice.linked(face, 3, 0.25)) ++open;
     }
   }
-  // Without extra links (a share of 0), about a third of the faces between cells is linked. Of the other faces, a
-  // quarter gets an extra link.
+  // Without extra links (a share of 0), about a third of the faces between cells are linked. With a share of 0.25, a
+  // quarter of the other faces are linked, too.
   CHECK(open > all * 0.25 * 0.60);
   CHECK(open < all * 0.25 * 0.72);
 }

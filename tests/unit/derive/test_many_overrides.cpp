@@ -51,7 +51,8 @@ TEST_CASE("what a use costs does not depend on how many overrides there are", "[
     edits += "override \"Main/Room[" + std::to_string(i) + "]" + door + "\" { box(1m); }\n";
   }
   const auto program = compiled(rules + edits);
-  // Each room has its sphere and a box in place of its door, or a box in place of the whole room.
+  // A thousand rooms keep their sphere, and have a box in place of their door. The other thousand rooms are replaced by
+  // a box.
   CHECK(boxesAndBalls(derived(*program, {})) == std::array<size_t, 2>{2000, 1000});
 
   DeriveLimits limits;

@@ -13,7 +13,7 @@ struct NoteCase {
   const char* message;
   const char* place;    ///< beginning of the path of the element that the note concerns
   const char* faulty;   ///< a statement that causes a note
-  const char* instead;  ///< what the faulty statement must be equal to: the statement without its fault, or nothing
+  const char* instead;  ///< must have the same result as `faulty`; empty: `faulty` must derive nothing
 };
 
 const NoteCase kNotes[] = {
@@ -107,7 +107,7 @@ const NoteCase kNotes[] = {
      "size(9m, 3m, 3m) wfc 3m { border left a, right a; a 1, left a, right b: box(scope); b 1, left b, right a: "
      "box(scope); }",
      ""},
-    // The message does not suggest changing sides that fit every tile.
+    // The sides `front` and `back` of all tiles fit here, so the message does not suggest changing them.
     {"these tiles cannot fill the (3, 1, 1) places of this scope, and it is left empty: place (2, 0, 0) would "
      "need a tile with `a` on its right and `a` on its left; add one, or join labels of a side with `or`",
      "wfc",
@@ -131,8 +131,8 @@ const NoteCase kNotes[] = {
      "size(9m, 1m, 9m) wfc 9m { a 0: box(scope); }", ""},
 };
 
-/// A grammar with this statement as the body of the rule Faulty, on line 3; uses of a rule without fault come before
-/// and after it.
+/// A grammar whose rule Faulty, on line 3, has this statement as its body. Before and after Faulty, Main uses a rule
+/// without faults.
 std::string around(std::string_view statement) {
   return "rule Main { at(9m, 9m, 9m) { Sound; Faulty; Sound; } }\nrule Faulty { " + std::string(statement) +
          " }\nrule Sound { sphere(rand(1m, 2m)); anchor spawn; }";
@@ -203,7 +203,7 @@ TEST_CASE("points that begin inside what they look for are noted, but in rock", 
         "after at(0m, -50m, 0m), and probe farther");
   CHECK(notesOf("infinite", 64 * 1024, "up") == "");
   CHECK(notesOf("infinite", 5 * 1024, "up") == "");
-  // No note, because in a solid domain most points of a scatter begin in rock: they look for the caves in it.
+  // No note: in a solid domain, a scatter looks for caves, so most of its points begin in rock.
   CHECK(notesOf("infinite solid", -64 * 1024, "up") == "");
 }
 

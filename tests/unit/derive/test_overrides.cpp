@@ -118,7 +118,8 @@ TEST_CASE("only the shapes of what is named change", "[override]") {
   const GrammarChunk a = derived(*before), b = derived(*after);
   REQUIRE(a.groups.size() == 4);
   REQUIRE(b.groups.size() == 5);
-  // The override derives the original ball 5 m higher, and a box whose size is a parameter of the use.
+  // The override derives the original ball 5 m higher, and adds a box whose size is r, the parameter of the replaced
+  // call of Ball.
   CHECK(b.shapes[b.groups[2].root].size == a.shapes[a.groups[2].root].size);
   CHECK(b.shapes[b.groups[2].root].frame.origin ==
         saturatingAdd(a.shapes[a.groups[2].root].frame.origin, {0, 5 * kUnitsPerMetre, 0}));
@@ -266,7 +267,7 @@ TEST_CASE("an override by a room's name takes the place of what stands in the ro
   auto more = plain;
   ++more.first[ShapeKind::capsule];
   CHECK(shapesOf("override tag \"den\" { inner; capsule((0m, 0m, 0m), (1m, 0m, 0m), 1m); }") == more);
-  // The room remains, but the override's capsule is cut from it instead of the original block's sphere.
+  // The room remains. In the room, the override replaces the original sphere and anchor: it cuts a capsule instead.
   auto other = plain;
   --other.first[ShapeKind::sphere];
   --other.second;
@@ -276,7 +277,7 @@ TEST_CASE("an override by a room's name takes the place of what stands in the ro
   auto bare = plain;
   --bare.second;
   CHECK(shapesOf("override tag \"bath\" { }") == bare);
-  // A tag in the block of the rule replaces the tag that is the rule's name.
+  // The room's name is the tag of the room's block only if the block sets no tag of its own.
   CHECK(compileGrammar(inLayer(rules) + "override tag \"bed\" { }", "test.sgm").program == nullptr);
 }
 
@@ -410,7 +411,7 @@ TEST_CASE("a cell that is named and lacks the path says so, and no other", "[ove
           (balls ? "this override finds nothing: there are only 2 `Ball` here in " + cell + "/Main" : none));
     CHECK(message(cell + "/Main/Ball[1]/Fruit[1]", x) ==
           (balls ? "this override finds nothing: there is only one `Fruit` here in " + cell + "/Main/Ball[1]" : none));
-    // Each ball has one Fruit, and no ball has two.
+    // Each ball has exactly one Fruit, so Fruit[1], which would be the second one, does not exist.
     CHECK(message(cell + "/Main/Ball/Fruit[1]", x) ==
           (balls ? "this override finds nothing: there is only one `Fruit` here in " + cell + "/Main/Ball[0]" : none));
     CHECK(message(cell + "/Main/Ball[2]", x + 1).empty());

@@ -1,4 +1,5 @@
-// Tests effects of the scope: displacements under a scale, cuts, whole domains.
+// Tests how the scope (the local coordinate frame) affects what is derived in it: displacements in a scaled scope,
+// cuts, and domains that are filled completely.
 
 #include "catch.h"
 #include "derive_fixture.h"

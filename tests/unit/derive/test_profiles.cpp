@@ -39,7 +39,7 @@ std::vector<PlanCorner> outlineOf(const GrammarChunk& chunk, const Shape& prism)
   return out;
 }
 
-/// Whether a convex outline contains a point, slightly away from its edges.
+/// Whether a point lies inside a convex outline, and not too near to the outline's edges.
 bool holds(const std::vector<PlanCorner>& outline, PlanCorner p) {
   for (size_t i = 0; i < outline.size(); ++i) {
     const PlanCorner a = outline[i], b = outline[(i + 1) % outline.size()];
@@ -129,7 +129,8 @@ TEST_CASE("an extrusion is as high as it says, from y = 0 up", "[derive][profile
     CHECK(std::fabs(middle - half) <= 0.51);
     // The scope of the block is the bounding box of the piece.
     REQUIRE(chunk.anchors.size() == 1);
-    // The middle and half of the height are rounded separately, and `half` was a float.
+    // Two values are rounded to whole units separately: the scope's middle and half of its height. `half` is also
+    // rounded to a float.
     CHECK(std::fabs(chunk.anchors[0].frame.origin.y - 2 * half) <= 1.01);
   }
 }

@@ -22,7 +22,9 @@ Int3 around(std::mt19937& random, Int3 p, int32_t most) {
   return saturatingAdd(p, {by(random), by(random), by(random)});
 }
 
-/// A field of rock everywhere except in a sphere, or only in it; like real fields, it has bounds with a slack.
+/// A field that is rock everywhere except in a sphere (`hollow`), or only in the sphere. Like the bounds of real
+/// fields, its bounds are not tight: a box near the surface may be unknown. slack: their error, in diagonals of the
+/// box.
 class OneSphere {
  public:
   OneSphere(Int3 centre, double radius, bool hollow, double slack)
@@ -50,7 +52,7 @@ class OneSphere {
   double slack_;
 };
 
-/// Lower layers that record the queries, and answer each with yes.
+/// Stands for the lower layers: records the queries, and answers each of them with yes.
 class Asked final : public LowerLayers {
  public:
   explicit Asked(uint32_t pieces = 1) : pieces_(pieces) {}
@@ -150,7 +152,7 @@ TEST_CASE("one position of something else is never missed") {
 }
 
 TEST_CASE("a proof costs no more than it may, and what costs more is not proven") {
-  // The content is known only for single positions, and not for larger boxes.
+  // Here the content is known only for single positions; for all larger boxes it is unknown.
   const auto single = [](const IntBox& box) { return box.lo == box.hi ? BoxContent::open : BoxContent::unknown; };
   const BallProof large = proveBall({{}, 5000}, BoxContent::open, single);
   CHECK_FALSE(large.holds);
@@ -229,7 +231,7 @@ TEST_CASE("in loops and point sets every place asks for itself") {
 }
 
 TEST_CASE("answers are conditions like others") {
-  // The lower layer is open everywhere below 32 m.
+  // The lower layer is open below a height of 32 m, and rock above it.
   const Ceiling rock(32 * 1024);
   const auto holds = [&](const std::string& height, const std::string& condition) {
     return anchorsOf("rule D { at(1m, " + height + ", 1m) Ask; } rule Ask when " + condition + " { anchor spawn; }",

@@ -14,8 +14,8 @@ using namespace sgm;
 
 namespace {
 
-/// Random parameter values within the declared ranges, for every second seed at the ends of the ranges; any values for
-/// parameters without a range.
+/// Random parameter values: within the declared ranges, and for every second seed at the ends of the ranges. Parameters
+/// without a range get any values.
 ParameterValues randomValues(const Program& program, uint64_t seed) {
   ParameterValues values = ParameterValues::defaults(program);
   for (size_t i = 0; i < program.params.size(); ++i) {
@@ -42,7 +42,7 @@ int32_t coarsestCell(const GrammarChunk& chunk, uint32_t index) {
 /// reach.
 int checkCell(const Program& program, const ParameterValues& values, uint64_t seed, Int3 cell) {
   const Result<GrammarChunk> chunk = deriveCell(program, values, seed, 0, cell, Ceiling(0));
-  if (!chunk) return 0;  // the cell is too large for the limits of derivation
+  if (!chunk) return 0;  // the cell exceeds the limits of derivation
   for (const DeriveNote& note : chunk->notes) {
     INFO(note.message << " in " << note.path << " at " << note.line << ":" << note.column);
     CHECK(note.message.find("may pass") == std::string::npos);

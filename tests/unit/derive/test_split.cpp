@@ -142,8 +142,8 @@ TEST_CASE("a split fills its scope with boxes that overlap by their seams alone,
 }
 
 TEST_CASE("faces of a box point outwards and cover it", "[split]") {
-  // Thin plates are moved away from the faces by 1 m along the faces' z axis: their places show whether z points
-  // outwards.
+  // Thin plates are moved away from the faces by 1 m along the faces' z axis: the plates' positions show whether z
+  // points outwards.
   const auto plates = [](const std::string& part) {
     return boxesOf(derivedRules("rule Main { at(20m, 20m, 20m) size(8m, 6m, 4m) comp { " + part +
                                 ": at(z 1m) size(z 0.5m) box(scope); } }"));
@@ -240,7 +240,8 @@ TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no f
   CAPTURE(seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
-  // Returns the tops of the floors of wings at various heights, some of which are rotated or upside down.
+  // Returns the tops of the floors of these wings. The wings are at various heights, and some of them are rotated or
+  // upside down.
   const auto tops = [](const std::string& snap, const std::string& wings) {
     const std::vector<Box> boxes =
         boxesOf(derivedRules("rule Main { at(20m, 20m, 20m) size(10m, 20m, 10m) " + snap + " { " + wings +
@@ -250,8 +251,8 @@ TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no f
     return lines;
   };
   int snapped = 0, all = 0;
-  // Every build tests at least 300 wings, because the shares are checked below. The few floors of one wing snap
-  // together or not at all, so with only twenty wings, less than a fifth of the floors would snap in one run of thirty.
+  // Every build tests at least 300 wings, because the share of snapped floors is checked below. The floors of one wing
+  // all snap, or none does. With only twenty wings, this share would by chance be below a fifth in one run of thirty.
   const unsigned wings = std::max(rounds(300), 300u);
   for (unsigned round = 0; round < wings; ++round) {
     const std::string low = std::to_string(-4 + 3 * unit(random)), tall = std::to_string(8 + 4 * unit(random));
@@ -265,7 +266,8 @@ TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no f
       if (free[i] > top) continue;
       const double from = (free[i] - 0.7) / 3.2, nearest = (std::floor(from + 0.5) - from) * 3.2;
       ++all;
-      if (std::fabs(std::fabs(nearest) - 0.6) < 0.005) continue;  // so near the snapping distance, rounding decides
+      // skipped: this distance is so near to the snapping distance that rounding decides
+      if (std::fabs(std::fabs(nearest) - 0.6) < 0.005) continue;
       const bool near = std::fabs(nearest) < 0.6;
       snapped += near;
       CHECK(held[i] == Approx(free[i] + (near ? nearest : 0)).margin(0.006));

@@ -48,7 +48,8 @@ Drawn drawnPlan(std::mt19937& random, size_t max_rooms = 10) {
   return out;
 }
 
-/// The open parts of a plan as rectangles, each with the index of its room, or SIZE_MAX for corridors and doors.
+/// Returns the open parts of a plan (rooms, corridors and doors) as rectangles. Each rectangle has the index of its
+/// room; corridors and doors have SIZE_MAX.
 std::vector<std::pair<PlanRect, size_t>> openOf(const FloorPlan& plan) {
   std::vector<std::pair<PlanRect, size_t>> out;
   for (size_t room = 0; room < plan.rooms.size(); ++room)
@@ -68,7 +69,7 @@ TEST_CASE("the example of the paper on squarified treemaps comes out as in its f
   const auto parts = squarifiedTreemap({0, 0, 6 * k, 4 * k}, areas, 1);
   CHECK(parts[0] == PlanRect{0, 0, 3 * k, 2 * k});
   CHECK(parts[1] == PlanRect{0, 2 * k, 3 * k, 4 * k});
-  // The areas 4 and 3 form a row along the shorter side of the remaining 3 by 4.
+  // The areas 4 and 3 form a row along the shorter side of the remaining rectangle, which is 3 by 4.
   CHECK(parts[2] == PlanRect{3 * k, 0, 3 * k + 12 * k / 7, 7 * k / 3});
   CHECK(parts[3] == PlanRect{3 * k + 12 * k / 7, 0, 6 * k, 7 * k / 3});
   for (size_t i = 4; i < 7; ++i) {
@@ -100,7 +101,7 @@ TEST_CASE("rooms share a floor in proportion, without gaps, and are nearer to sq
       REQUIRE(r.z1 <= whole.z1);
       REQUIRE((r.x0 - whole.x0) % 2 == 0);
       REQUIRE((r.z0 - whole.z0) % 2 == 0);
-      // Areas are exact, except that each line is rounded to two units.
+      // Areas are exact, except that the position of each dividing line is rounded to a multiple of two units.
       const double wanted = weights[i] / total * areaOf(whole);
       REQUIRE(std::fabs(areaOf(r) - wanted) <= 4.0 * (r.width() + r.depth()) + 16);
       covered += areaOf(r);
@@ -147,7 +148,7 @@ TEST_CASE("every room of a thousand floors can be reached from outside, through 
     }
     REQUIRE(std::count(seen.begin(), seen.end(), false) == 0);
     REQUIRE(std::count(reached.begin(), reached.end(), false) == 0);
-    // There is a wall between any two rooms, and between rooms and the corridor.
+    // Check the walls: there is one between any two rooms, and one between each room and the corridor.
     const PlanRect& entrance = plan.doors[0].hole;
     const int32_t x = drawn.sizes.x / 2, z = drawn.sizes.z / 2;
     CHECK((entrance.x0 < -x || entrance.x1 > x || entrance.z0 < -z || entrance.z1 > z));
@@ -187,7 +188,7 @@ TEST_CASE("most floors have a corridor, and most rooms that are linked meet", "[
   }
   CAPTURE(corridors, through, links, lost);
   CHECK(corridors > floors / 4);
-  // A room is entered through another room without a requested link only if no corridor from the entrance fits.
+  // A door between two rooms that no link requests is made only if no corridor from the entrance fits.
   CHECK(through <= floors / 8);
   CHECK(lost <= links / 6);
 }

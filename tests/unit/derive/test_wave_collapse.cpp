@@ -92,7 +92,8 @@ void checkSolution(const DrawnWave& wave, const WaveResult& result) {
   }
 }
 
-/// Tiles with pipes in a plane: one tile for every set of sides at which pipes leave, except single sides.
+/// Tiles with pipes in a plane: one tile for every set of sides through which its pipes leave, except for sets of a
+/// single side.
 std::vector<WaveTile> pipes() {
   std::vector<WaveTile> out;
   for (unsigned open = 0; open < 16; ++open) {
@@ -205,8 +206,8 @@ TEST_CASE("what nothing fits is said with what it would have to meet", "[wfc]") 
 }
 
 TEST_CASE("a search that is too long is given up and counted", "[wfc]") {
-  // A problem without a solution by parity, which propagation does not detect: pipes would have to cross a cut an odd
-  // number of times.
+  // This problem has no solution for reasons of parity, which propagation does not detect: an odd number of pipes would
+  // have to cross a cut through the lattice.
   const std::vector<WaveTile> tiles = pipes();
   WaveLattice lattice;
   lattice.size = {12, 1, 12};
@@ -223,7 +224,7 @@ TEST_CASE("a search that is too long is given up and counted", "[wfc]") {
 }
 
 TEST_CASE("a search is given up within one choice, however far that reaches", "[wfc]") {
-  // Each tile requires the next one on its left, except the last, which fits only to itself: so the choice of one tile
+  // Each tile requires the next tile on its left, and the last tile fits only to itself. So the choice of one tile
   // removes all other tiles at all places, one after the other.
   std::vector<WaveTile> tiles(60);
   for (size_t t = 0; t < tiles.size(); ++t) {

@@ -31,7 +31,7 @@ constexpr const char* kSides[6] = {"front", "right", "back", "left", "top", "bot
 constexpr const char* kMarks[6] = {"z 0.5*scope.z - 0.1m", "x 0.5*scope.x - 0.1m", "z 0.1m - 0.5*scope.z",
                                    "x 0.1m - 0.5*scope.x", "y 0.5*scope.y - 0.1m", "y 0.1m - 0.5*scope.y"};
 
-/// Random tiles. Each side that has a label also has a small box, whose material is named after the label.
+/// Random tiles. Each side that has a label also has a mark: a small box, whose material is named after the label.
 std::string markedTiles(std::mt19937& random, const std::string& size, bool border) {
   const char* labels[] = {"red", "green", "blue"};
   const auto label = [&] { return labels[random() % 3]; };
@@ -42,7 +42,7 @@ std::string markedTiles(std::mt19937& random, const std::string& size, bool bord
     out += " t" + std::to_string(t) + " " + std::to_string(1 + random() % 5) + (random() % 2 == 0 ? " turn" : "");
     std::string body;
     for (size_t side = 0; side < 6; ++side) {
-      // A side without a label fits to any side.
+      // A side without a label may lie next to any side.
       if (random() % 12 == 0) continue;
       const std::string said = label();
       out += std::string(", ") + kSides[side] + " " + said;
@@ -57,7 +57,7 @@ size_t countOf(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<size_t>(std::count(names.begin(), names.end(), name));
 }
 
-/// The materials of the boxes, in the order of the tiles.
+/// The materials of the boxes in a derived cell, in the order of the tiles that contain the boxes.
 std::vector<std::string> tilesOf(const Program& program, const GrammarChunk& chunk) {
   std::vector<std::string> out;
   for (const auto& [at, material] : marksOf(program, chunk)) out.push_back(material);
@@ -112,7 +112,8 @@ TEST_CASE("sides that touch have a label in common, however tiles are turned and
     const auto marks = marksOf(*result.program, chunk);
     const size_t places = static_cast<size_t>(n[0] * n[1] * n[2]);
     REQUIRE(marks.size() <= 6 * places);
-    // Adjacent places have a mark each at their common border: such marks form pairs, 0.2 m apart.
+    // Where two tiles meet, the marks of the two sides (the small boxes of markedTiles()) lie 0.2 m apart. Counts these
+    // pairs of marks, and checks that their materials are equal.
     size_t met = 0;
     for (size_t a = 0; a < marks.size(); ++a) {
       for (size_t b = a + 1; b < marks.size(); ++b) {
@@ -125,7 +126,8 @@ TEST_CASE("sides that touch have a label in common, however tiles are turned and
       }
     }
     const int lines = (n[0] - 1) * n[1] * n[2] + n[0] * (n[1] - 1) * n[2] + n[0] * n[1] * (n[2] - 1);
-    // Each missing mark breaks at most one pair.
+    // `lines` is the number of pairs of adjacent places. A side without a label has no mark, so a pair with such a side
+    // is missing in `met`. Each such side accounts for at most one missing pair.
     REQUIRE(met <= static_cast<size_t>(lines));
     REQUIRE(met + (6 * places - marks.size()) >= static_cast<size_t>(lines));
     pairs += static_cast<unsigned>(met);
@@ -186,7 +188,7 @@ TEST_CASE("a lattice is the same wherever and whenever it is derived, and anothe
 }
 
 TEST_CASE("walls run on from tile to tile, and their ends meet", "[wfc]") {
-  // In a lawn, walls form closed loops, so the number of their corner tiles is even, and at least four.
+  // The walls in this meadow form closed loops, so the number of their corner tiles is even, and at least four.
   const auto program = ofTiles(kMeadow);
   unsigned walls = 0;
   for (uint64_t seed = 0; seed < 30; ++seed) {
@@ -286,7 +288,7 @@ TEST_CASE("what meets others than its own kind stands beside those alone", "[wfc
     ways.insert(at[0] > -11);
   }
   CHECK(ways.size() == 2);
-  // Towers fit only to walls, and walls fit to both walls and towers: no two towers are side by side.
+  // A tower may stand only beside walls, a wall beside walls and towers. So no two towers stand side by side.
   const auto towers = ofTiles(
       "rule Main { size(16m, 2m, 16m) wfc 2m { tower 9, side post meets wall: { box(1m); mat tower; } wall 1, side "
       "wall "

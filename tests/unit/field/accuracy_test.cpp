@@ -29,8 +29,8 @@ double referenceOf(const ProgramView& program, const ProgramGroup& g, uint32_t c
   return referenceField(view, p);
 }
 
-// Bounds of the float value at one point, for a program with one group: computed from the reference values of the
-// leaves, and the error that ops.def states for each operation above them.
+// Bounds of the float value at one point, for a program with one group. They are computed from the reference values of
+// the leaves, and from the error that ops.def states for each operation above the leaves.
 Interval boundsAt(const ProgramView& program, Int3 p) {
   const ProgramGroup& g = program.groups[0];
   const PlaceBox here = placeBox({p, p});
@@ -144,7 +144,8 @@ TEST_CASE("every op is as close to the double-precision reference as its operand
 
 namespace {
 
-// A program with a single operation, which either reads a position, or takes constants, which have no error themselves.
+// A program with a single operation. The operation either reads a position, or takes constants as operands; constants
+// have no error themselves.
 FieldProgram lonely(Op op, std::mt19937& random, Int3 centre) {
   const FieldProgram drawn = programOf(op, random, centre);
   if (drawn.instrs.size() == 1) return drawn;
@@ -215,7 +216,8 @@ FieldProgram lonely(Op op, std::mt19937& random, Int3 centre) {
 TEST_CASE("no op's float error is more than the relative error that ops.def states", "[costly]") {
   for (int o = 0; o < static_cast<int>(Op::count); ++o) {
     const Op op = static_cast<Op>(o);
-    // A warp has no value of its own, and the error of a round or a sum is measured at the last op of the round or sum.
+    // These ops are left out: a warp has no value of its own, and the error of a round or a sum is measured at its last
+    // op.
     if (op == Op::warp || op == Op::round_begin || op == Op::round_add || op == Op::sum_begin || op == Op::sum_add)
       continue;
     std::mt19937 first(1);
@@ -223,7 +225,8 @@ TEST_CASE("no op's float error is more than the relative error that ops.def stat
     const bool of_one = op == Op::noise || op == Op::sweep;
     double worst = 0;
     size_t compared = 0, ties = 0;
-    // The value of these programs does not depend on the position, so each gives one value; 300 are required below.
+    // A program that reads no position has only one value, so many programs are tested: at least 300 values are
+    // required below.
     const uint32_t programs = reads_position ? rounds(30) : std::max(rounds(600), 350u);
     for (uint32_t seed = 1; seed <= programs; ++seed) {
       std::mt19937 random(seed);
@@ -243,8 +246,8 @@ TEST_CASE("no op's float error is more than the relative error that ops.def stat
         const Interval bounds = boundsAt(program.view(), p);
         const double expected = referenceField(program.view(), p), off = std::abs(double{e.value[i]} - expected);
         ++compared;
-        // Half the width of the bounds at a point is the stated relative error times the largest magnitude of the
-        // inputs.
+        // `half`, half the width of the bounds, is the stated relative error times the largest magnitude of the inputs.
+        // So off / half times the stated error is the error relative to that magnitude.
         const double half = of_one ? statedError(op) : (bounds.hi - bounds.lo) / 2;
         const double relative = off == 0 ? 0 : half == 0 ? 1 : off / half * std::max(statedError(op), 1e-30);
         if (op == Op::sweep && relative > statedError(op)) {

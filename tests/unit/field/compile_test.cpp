@@ -111,7 +111,7 @@ TEST_CASE("the index finds exactly the groups that a scan finds") {
     for (int i = 0; i < 40; ++i) {
       const Int3 at{within(random, 80'000), within(random, 80'000), within(random, 80'000)};
       const IntBox box = i == 0 ? IntBox::everything() : IntBox{at, at}.grown(1 << random() % 16);
-      std::pmr::vector<uint32_t> expected, found{77};  // found has an element that compile() must keep
+      std::pmr::vector<uint32_t> expected, found{77};  // query() must keep the element that `found` already has
       for (uint32_t g = 0; g < chunk.groups.size(); ++g) {
         if (chunk.groups[g].bounds.meets(box)) expected.push_back(g);
       }

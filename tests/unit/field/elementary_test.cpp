@@ -14,7 +14,8 @@ using std::memcpy;
 
 #include "common/common.h"
 
-// Number of floats from 0.5 up to 2, which have two exponents: all cases of a function that scales with the exponent.
+// Number of floats from 0.5 up to 2. They are all mantissas with two successive exponents. For a function that handles
+// larger and smaller exponents only by scaling its result, they are all cases.
 constexpr uint32_t kMantissas = 1u << 24;
 
 float atStep(uint32_t step) { return uniformFloat(0x3F000000u + step); }

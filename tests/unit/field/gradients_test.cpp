@@ -85,8 +85,10 @@ TEST_CASE("analytic gradients follow the field") {
     for (uint32_t seed = 1; seed <= 12; ++seed) {
       std::mt19937 random(seed * 77 + static_cast<uint32_t>(o));
       const FieldProgram program = programOf(op, random, {});
-      if (shortestPeriod(program) < 128) continue;  // the noise is finer than the step of the difference quotient
-      if (reads(program, Op::lattice)) continue;    // its gradients are smoothed: tested separately
+      // skipped: the noise is finer than the step of the difference quotient
+      if (shortestPeriod(program) < 128) continue;
+      // skipped: the smoothed gradients of the op `lattice` are tested separately
+      if (reads(program, Op::lattice)) continue;
       const PointSet points = randomPoints(random, {}, 20'000, 60);
       const Evaluated e = evaluate(scalarKernels(), program.view(), points.points());
       for (size_t i = 0; i < points.x.size(); ++i) {

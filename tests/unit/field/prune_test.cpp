@@ -87,7 +87,8 @@ TEST_CASE("bounds hold where sample and centre are more than an int32 apart, and
     f.origin = {-2'000'000'000, 1'900'000'000, 1'900'000'000};
     const float third = 0.57735f;
     f.rows = {0.81650f, -0.40825f, -0.40825f, third, third, third, 0, 0.70711f, -0.70711f};
-    // If int32 did not saturate, the sum of the offsets would be positive.
+    // The x offset, 4.1e9 units, saturates at the largest int32. With the exact offset, the sum of the three offsets
+    // would be positive.
     CHECK(check(b, b.halfspace(f, 0), {2'100'000'000, 0, 0}) < 0);
   }
   SECTION("a comparison of a coordinate") {

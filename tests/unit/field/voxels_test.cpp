@@ -23,7 +23,7 @@ int32_t between(std::mt19937& random, int32_t low, int32_t high) {
   return std::uniform_int_distribution<int32_t>(low, high)(random);
 }
 
-/// A world of voxels, each solid or not by a function of its indices: here random clumps.
+/// A world of voxels. A function of a voxel's indices decides whether the voxel is solid; it makes random clumps here.
 struct VoxelWorld {
   uint64_t seed = 0;
   int32_t edge = 1024;
@@ -194,7 +194,8 @@ TEST_CASE("voxels are as smooth as is said, at every level") {
     for (size_t i = 0; i < places.size(); ++i) {
       const double wanted = expected.at(places[i]);
       CAPTURE(i, places[i].x, places[i].y, places[i].z);
-      // Samples lie at whole units, but 7/8 or 1/4 of a voxel's edge may not, so the value may differ by rounding.
+      // The tolerance covers rounding: samples are rounded to whole units, also those that are limited to 7/8 or 1/4 of
+      // a voxel's edge.
       CHECK(std::abs(static_cast<double>(found.value[i]) - wanted) < 2.01);
       if (i % 3 == 0 && cell < 2 * world.edge) {
         const Int3 off = saturatingSub(places[i], world.anchor);
@@ -211,8 +212,8 @@ TEST_CASE("voxels in pieces are the same as in one, to the bit, at every level")
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(12); ++round) {
     const VoxelWorld world = anyWorld(random);
-    // Eight pieces, two along each axis, whose sizes need not be whole numbers of voxels, and one piece that contains
-    // all of them.
+    // Eight pieces, two along each axis, and one piece that contains all of them. The sizes of the pieces need not be
+    // whole numbers of voxels.
     const int32_t small = between(random, 3 * world.edge, 9 * world.edge),
                   cell = world.edge * between(random, 1, 8) / 2;
     const Int3 home{between(random, -3, 3), 0, between(random, -3, 3)};

@@ -13,8 +13,8 @@ using cli::PicturedChunk;
 using cli::PictureRequest;
 
 #if defined(__SANITIZE_ADDRESS__)
-// Mesa's drivers leak a little memory for each instance, and are unloaded before the leak check, so that no suppression
-// can name them: switch the leak check off.
+// Switches the leak check off: Mesa's drivers leak a little memory for each instance. They are unloaded before the
+// check, so suppressions cannot name them.
 extern "C" __attribute__((visibility("default"))) const char* __asan_default_options();
 extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
 #endif

@@ -66,7 +66,7 @@ TEST_CASE("a flight that digs draws each dig soon, closed, and makes the same wo
   const FlightReport report = flight.fly(), other = paced.fly();
   for (const FlightReport& r : {report, other}) {
     CHECK(r.frames == 180);
-    // The first dig comes one second after the start of the flight.
+    // There are ten digs per second, from one second after the start of the flight on.
     CHECK(r.digs.digs() == 20);
     CHECK(r.digs.cuts > r.digs.adds + r.digs.undos);
     CHECK(r.digs.undos > 0);

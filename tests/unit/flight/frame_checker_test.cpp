@@ -151,7 +151,7 @@ TEST_CASE("a chunk that is drawn inside another one is seen, whichever came firs
     agreed(checker);
     const auto& [leaf, parts] =
         *std::find_if(drawing.begin(), drawing.end(), [&](const auto& drawn) { return holds(node, drawn.first); });
-    // Draws the leaf again, below the coarser node that was drawn after it.
+    // Draws the leaf again. It lies inside the coarser node, which was drawn after the leaf.
     REQUIRE(checker.draw(world.view(leaf), parts));
     CHECK(checker.check().overlaps == inside);
     REQUIRE(checker.erase(publicKey(node)));
@@ -202,8 +202,8 @@ TEST_CASE("wrong blocks that join two surfaces in a point are seen in that verte
   drawAll(checker, world, drawing);
   CHECK(checker.checkWhole().closed());
   CHECK(checker.check().triangles > 100);
-  // The flags claim that the chunks across the lower edges are fine, and that the chunk across the corner is coarse:
-  // then the vertex in the corner gets the key of another vertex.
+  // The wrong flags claim that the chunks across the lower edges are fine, and that the chunk across the lower corner
+  // is coarse. The vertex in this corner then gets the key of another vertex.
   DrawnParts wrong = drawing.at(upper);
   wrong.coarser &= ~(neighbourBit(0, -1, -1) | neighbourBit(-1, 0, -1) | neighbourBit(-1, -1, 0));
   wrong.coarser |= neighbourBit(-1, -1, -1);

@@ -1,5 +1,5 @@
-// Tests declared ranges of the arguments of rules, lets and fields: the messages to a caller, word for word and with
-// its own line.
+// Tests declared ranges of the arguments of rules, lets and fields. The messages are compared word for word; each must
+// name the line of the call.
 
 #include "grammar/check_file.h"
 #include "grammar/help/declarations.h"
@@ -46,7 +46,7 @@ TEST_CASE("an argument outside of its range is told at its own place", "[grammar
         "to 1");
   CHECK(wordsOfBody("Hall(60.001m);").starts_with("3:15 argument-range: `Hall` is given `r` = 60.001m, which"));
   CHECK(wordsOfBody("Hall(-2m);").starts_with("3:15 argument-range: `Hall` is given `r` = -2m, which"));
-  // All violations are reported together.
+  // All violations are reported in one run, not only the first one.
   CHECK(brief(compileText("sgm 1;\n" + kHall + "rule A { Hall(0m, 2); } start A;").diagnostics) ==
         "3:15 argument-range; 3:19 argument-range");
 }
@@ -70,7 +70,7 @@ TEST_CASE("draws, loops and parameters are followed", "[grammar][ranges]") {
             .starts_with("4:15 argument-range: `Hall` is given `r` = 0.2m..0.5m, none of which"));
   CHECK(rangeWords("param wide = 1m in 0.2m..5m;\n" + kHall + "rule A { Hall(2*wide); } start A;")
             .starts_with("4:15 warning argument-range: `Hall` may be given `r` = 0.4m..10m, not all of which"));
-  // A rule that is guarded by a condition on the value needs no warning.
+  // A rule whose condition keeps the value in the range needs no warning.
   CHECK(rangeWords("param wide = 1m in 0.2m..5m;\n" + kHall +
                    "rule A { B(wide); }\nrule B(w) when w >= 1m { Hall(w); }\nrule B(w) else { box(w); } start A;")
             .empty());
@@ -93,7 +93,8 @@ TEST_CASE("what comes through other rules is told where it leaves the range", "[
 TEST_CASE("what nothing derives is held to what is certain", "[grammar][ranges]") {
   const auto found = compileText("sgm 1;\n" + kHall + "rule A { sphere(1m); }\nrule B { Hall(0m); } start A;");
   CHECK(brief(found.diagnostics).find("4:15 argument-range") != std::string::npos);
-  // A library has no start, so its rules are checked without callers: only certain violations are errors.
+  // A library has no start, so its rules are checked without callers. Their arguments are unknown: only violations that
+  // occur for all arguments are errors.
   const CheckResult library =
       checkFile("sgm 1;\n" + kHall + "rule B(s) { Hall(0m); Hall(s); Hall(rand(0m, 2m)); }", "test.sgm", {});
   CHECK(brief(library.compiled.diagnostics) == "3:18 argument-range; 3:37 argument-range");
@@ -120,13 +121,14 @@ TEST_CASE("sizes of parts of scopes are known from above alone", "[grammar][rang
             .starts_with("3:15 argument-range: `Hall` is given `r` = -"));
   CHECK(rangeWords(kHall + "rule A { split x { { ~10m: Hall(rand(0.5m, 2m)); }* }" + tail)
             .find("3:33 warning argument-range: `Hall` may be given `r` = 0.5m..2m, not all") != std::string::npos);
-  // A size of the scope that is known is used for the check.
+  // If the size of the scope is known, the check uses it.
   CHECK(rangeWords(kHall + "rule B { Hall(0.5*scope.x); }\nrule A { split x { 1m: B; ~5m: { } }" + tail)
             .starts_with("3:15 argument-range: `Hall` is given `r` = 0.5"));
 }
 
 TEST_CASE("what a rule gives itself is its own affair", "[grammar][ranges]") {
-  // Recursive rules with decreasing sizes, which a condition, a depth or a minimum size ends: no violations.
+  // The sizes of these recursive rules decrease, but a condition, a depth or a minimum size ends the recursion before
+  // they leave their range: no messages.
   CHECK(rangeWords("rule Tree(h in 1m..20m) minsize 0.2m -> Leaf { cylinder(0.1*h, h); at(y h) Tree(0.6*h); }\n"
                    "rule Leaf { sphere(0.1m); }\nrule A { Tree(4m); } start A;")
             .empty());
@@ -259,7 +261,8 @@ TEST_CASE("the caller of an import is told, and the caller of the library for wh
   files.files["caves.sgm"] = "sgm 1;\n" + kHall + "rule Two(r) { Hall(0.5*r); }\n";
   CHECK(rangeWords("import \"caves.sgm\" as caves;\nrule A { caves.Hall(0m); } start A;", &files)
             .starts_with("3:21 argument-range: `caves.Hall` is given `r` = 0m, which"));
-  // In an imported file that is not of the standard library, the error is reported at its own place.
+  // An error in an imported file is reported at its place in that file, unless the file belongs to the standard
+  // library.
   const CompileResult inner =
       compileText("sgm 1;\nimport \"caves.sgm\" as caves;\nrule A { caves.Two(1m); } start A;", &files);
   REQUIRE(inner.diagnostics.size() == 1);

@@ -165,7 +165,7 @@ TEST_CASE("a `fit` is written in one way", "[grammar][assets]") {
       "t.sgm");
   REQUIRE(formatted.text);
   CHECK(formatted.text->find("fit bay stretch x (1m)..2*3m repeat y 0m..1m;") != std::string::npos);
-  // A statement that is too long for one line gets a line for each zone.
+  // A `fit` statement that is too long for one line gets a line for each zone, such as `stretch x 1m..2m`.
   const FormatResult lines = formatGrammar(
       "sgm 1; start A; rule A { size(8m, 9m, 4m) fit bay stretch x 1.25m..2.25m stretch x 3.75m..4.25m repeat y "
       "1.125m..2.125m stretch z 0.125m..0.375m; }",

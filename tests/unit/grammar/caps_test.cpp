@@ -61,7 +61,7 @@ TEST_CASE("many overrides of one rule cost what they are", "[grammar][caps]") {
   const std::string head =
       "sgm 1; domain infinite; layer a cell 8m reach 8m { start A; }\nrule A { B; }\nrule B { tag \"b\"; sphere(1m); "
       "}\n";
-  // Overrides of different cells never nest, so at most one of them moves each shape.
+  // Each of these overrides applies to another cell, so they never nest: at most one of them moves a shape.
   const CompileResult apart = compileText(head + cells);
   INFO(renderDiagnostics(apart));
   CHECK(apart.program);

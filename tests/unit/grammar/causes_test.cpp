@@ -1,5 +1,5 @@
-// Tests messages about divisions by 0, weights below 0 and values without a bound: each reports the cause, at a line
-// that the author can change, with a hint that removes it.
+// Tests messages about divisions by 0, weights below 0 and values without a bound. Each message reports the cause at a
+// line that the author can change, with a hint; the hint's text removes the error.
 
 #include <cmath>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Compiles texts in one line, for tests.
+// Functions with which a test compiles a text in a single call.
 
 #include <filesystem>
 #include <fstream>

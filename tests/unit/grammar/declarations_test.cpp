@@ -76,7 +76,8 @@ TEST_CASE("names of the samples are declared where the compiler finds them", "[g
       if (!kinds || n.span.file != 0 || n.qualifier != kNoId || n.name == kNoId) continue;
       const auto word = wordAt(text, n.span.begin);
       REQUIRE(word);
-      // The name of a method comes after the value on which it is called.
+      // In the call of a method, the span begins with the value on which the method is called, not with the method's
+      // name: skip these calls.
       if (word->word != compiled.program->text(n.name)) continue;
       INFO(text.substr(n.span.begin, n.span.end - n.span.begin) << " in line " << n.span.line);
       const auto found = declarations.find(word->word, n.span.begin);

@@ -322,7 +322,7 @@ TEST_CASE("every diagnostic stands where the fault is", "[grammar][diagnostics]"
 
 namespace {
 
-/// Cases of the codes that only lowered limits or other files can cause.
+/// Cases for the codes that are only reported with lowered limits or for several files.
 std::vector<std::pair<std::string, CompileResult>> cappedCases() {
   std::vector<std::pair<std::string, CompileResult>> out;
   auto add = [&](std::string expected, std::string_view text, auto change) {

@@ -45,8 +45,8 @@ TEST_CASE("what is missing makes no errors of its own", "[grammar][together]") {
       "start D; }\nrule A { sphere(1m); } rule D { scatter poisson(1m) probe up 1m of net { sphere(1m); } }",
       "sgm 1;\nstart A\nrule A { sphere(1m); }",
       "sgm 1;\ndomain infinit; layer a cell 8m reach 4m { start A; }\nrule A { sphere(1m); }",
-      // Texts with parts that could not be parsed: the names and bounds that these would have defined cause no further
-      // errors.
+      // Texts with a part that cannot be parsed. Names and bounds that this part would have defined are missing, but
+      // this must cause no further errors.
       "sgm 1; start A;\nrule A { meet { box(1m; halfspace(below 0m); } }",
       "sgm 1; start A;\nrule A { let r = 1m +; sphere(r); }",
       "sgm 1; start A;\nrule A { footprint rect(1m 2m) as plan; extrude 2m of plan; }",
@@ -87,7 +87,7 @@ TEST_CASE("a file for others to import is checked by itself", "[grammar][library
   CHECK(good.compiled.diagnostics.empty());
   CHECK(good.library);
   REQUIRE(good.compiled.program);
-  // Errors in a library's rules are found although nothing calls these.
+  // Errors in a library's rules are found although nothing calls these rules.
   CHECK(checked("rule Beam { bxo(1m); sphere(1); }") == "4:13 unknown-name; 4:29 unit-mismatch");
   CHECK(checked("rule Tree(r) { Tree(r); }") == "4:16 unbounded-recursion");
   // A declaration that only the root file may contain makes the file a root, which needs a start. Compiling for

@@ -1,4 +1,4 @@
-// Tests messages about the syntax of other languages, word for word.
+// Tests, word for word, the messages for texts that contain syntax of other programming languages.
 
 #include "messages.h"
 

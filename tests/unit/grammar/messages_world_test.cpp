@@ -250,7 +250,8 @@ const MessageCase kOverrides[] = {
      "A/A/A/A/A/A/A/A/A/A\" { }\nrule A { A; }"},
 };
 
-// Texts that are valid but probably not intended.
+// Valid grammars that probably contain a mistake, about which the compiler warns; and similar grammars without a
+// warning.
 const MessageCase kIdle[] = {
     {"2:7 warning unused-value: nothing uses the parameter `n` | it changes nothing: use it, or remove it",
      "param n = 3 in 1..5;\nrule A { sphere(1m); }"},

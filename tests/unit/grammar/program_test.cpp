@@ -32,7 +32,8 @@ TEST_CASE("parameters have dimension, range and doc", "[grammar][program]") {
 }
 
 TEST_CASE("a call keeps its name while its arguments bring many new ones", "[grammar][program]") {
-  // The parser cannot know that `above -2m` is a named argument, only the checker, which knows the callee.
+  // The parser cannot know that `above -2m` is a named argument and not a subtraction. Only the checker knows the
+  // callee, and thus the names of its arguments.
   std::string sum = "1m";
   for (int i = 100; i < 160; ++i) {
     const CompileResult result = compileText("sgm 1; start A; rule A {\nhalfspace(below " + sum + ", above -2m);\n}");

@@ -1,5 +1,5 @@
 #pragma once
-// Makes random programs with valid syntax, and often with valid meaning, for tests and as seeds for fuzzing.
+// Makes random programs for tests and as seeds for fuzzing. Their syntax is valid, and many also have no other errors.
 
 #include <cstdint>
 #include <string>

@@ -104,7 +104,7 @@ class FirstWords {
   using Tokens = std::vector<std::string>;
 
   // Each of these functions parses one part of a production, adds the part's first words, and returns whether the part
-  // can be empty. If words is null, it only finds the part's end.
+  // can be empty. If words is null, the function only finds the part's end.
   bool alternatives(const Tokens& tokens, size_t& at, Words* words) const {
     bool empty = sequence(tokens, at, words);
     while (tokens[at] == "|") empty = sequence(tokens, ++at, words) || empty;

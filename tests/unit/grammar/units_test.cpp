@@ -80,7 +80,7 @@ TEST_CASE("an error names both dimensions", "[grammar][units]") {
 TEST_CASE("a rule's parameters have one dimension each, from the first call", "[grammar][units]") {
   const CompileResult result = compileText("sgm 1; start A;\nrule A { B(2m); B(30deg); }\nrule B(r) { sphere(r); }");
   CHECK(brief(result.diagnostics) == "2:19 unit-mismatch");
-  // The literal 0 leaves the dimension open.
+  // The literal 0 fits every dimension, so the first call leaves the dimension of r open.
   CHECK(compileText("sgm 1; start A;\nrule A { B(0); B(2m); }\nrule B(r) { at(r, 0, 0) sphere(1m); }").program);
   CHECK(brief(compileText("sgm 1; start A;\nrule A { B(0); B(2deg); }\nrule B(r) { at(r, 0, 0) sphere(1m); }")
                   .diagnostics) == "3:16 unit-mismatch");

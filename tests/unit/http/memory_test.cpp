@@ -43,8 +43,8 @@ TEST_CASE("Whichever allocation fails, the server serves the next client", "[thr
           reply(makeResponse(200, "text/plain", "later"));
       });
       if (for_good) {
-        // No request can be served without memory; when there is memory again, waiting clients must be answered or
-        // disconnected.
+        // While there is no memory, no request can be served. As soon as there is memory again, each waiting client
+        // must be answered or disconnected.
         std::this_thread::sleep_for(patience);
         all_answered = !mendHeap();
       }
@@ -63,8 +63,8 @@ TEST_CASE("Whichever allocation fails, the server serves the next client", "[thr
     const auto answer = next.ask("GET /a HTTP/1.1\r\nHost: h\r\n\r\n");
     REQUIRE(answer);
     CHECK(answer->status == 200);
-    // On a busy machine, the server may not have reached the failing allocation: the same allocation is tried again
-    // with more time.
+    // On a busy machine, the server may not have reached the failing allocation before the test gave up waiting. In
+    // this case the test fails the same allocation again, and waits longer.
     const bool doubtful = for_good && all_answered && patience == 5ms;
     patience = doubtful ? 500ms : 5ms;
     if (doubtful) {

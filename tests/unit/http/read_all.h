@@ -31,8 +31,8 @@ struct Told {
   }
 };
 
-/// Passes the bytes to the reader in pieces, whose sizes size(bytes left) returns (at least 1). Stops when the reader
-/// rejects a request. The last element is an incomplete request, or the rejected one.
+/// Passes the bytes to the reader in pieces: the callback size(bytes left) returns the size of the next piece (at least
+/// 1). Stops when the reader rejects a request. The last element is an incomplete request, or the rejected one.
 inline std::vector<Told> readAll(std::string_view bytes, uint64_t max_bytes, const ReaderLimits& limits,
                                  const std::function<size_t(size_t)>& size) {
   using Event = RequestReader::Event;

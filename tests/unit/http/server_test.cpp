@@ -1,4 +1,4 @@
-// Tests servers on loopback sockets.
+// Tests the HTTP server with clients on loopback sockets.
 
 #include "tools/service/http/server.h"
 
@@ -106,7 +106,7 @@ TEST_CASE("A body in chunks, or waited for with 100, arrives", "[threads]") {
   CHECK(client.hear().value().status == 100);
   CHECK(client.ask("1\r\nz\r\n0\r\n\r\n").value().body == "POST /c z");
   CHECK(client.ask(kGet).value().status == 200);
-  // The server does not wait for the body of a refused request.
+  // The server answers a refused request at once, without waiting for the request's body.
   client.say("POST /c HTTP/1.1\r\nHost: h\r\nContent-Length: 1001\r\nExpect: 100-continue\r\n\r\n");
   CHECK(client.hear().value().status == 413);
   CHECK(client.ended());
@@ -116,7 +116,7 @@ TEST_CASE("A client that is refused in the middle of its body sees why", "[threa
   Served served;
   const uint16_t port = served.server->port();
   const std::string much(size_t{8} << 20, 'x');
-  // The client sends its whole body before it reads the answer, as simple clients do.
+  // Like a simple client, this client sends its whole body before it reads the answer.
   const auto refused = [&](const std::string& head, const std::string& body, int status) {
     INFO(head.substr(0, 80));
     Client client(port);
@@ -226,8 +226,7 @@ TEST_CASE("Replies may come from many threads, also where the client has gone", 
         client->say(get("/later"));
         if ((i + t) % 3 == 0) client.reset();
         served.handler.takeReply()(makeResponse(200, "text/plain", "x"));
-        // The reply above may have gone to another thread's client, so this client waits for the end of its connection
-        // for 1 ms only.
+        // Wait at most 1 ms for this connection to end: the reply above may have gone to another thread's client.
         if (client) client->ended(1ms);
       }
     });

@@ -63,7 +63,8 @@ class TestHandler : public Handler {
     reply(makeResponse(200, "text/plain", request.method + " " + request.path + " " + (taken ? taken->bytes : "")));
   }
 
-  /// The Reply for the next request of /later; null if no such request arrives within this time.
+  /// Returns the Reply of the next request for /later, with which the test can answer this request. Waits at most for
+  /// `time`; returns null if no such request arrives.
   Reply takeReplyWithin(std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
     if (!changed_.wait_for(lock, time, [&] { return !kept_.empty(); })) return nullptr;
@@ -77,7 +78,7 @@ class TestHandler : public Handler {
     return reply;
   }
 
-  /// Request::gone of the last request for /later, which becomes true when the client disconnects.
+  /// Returns the flag Request::gone of the last request for /later. It becomes true when the client disconnects.
   std::shared_ptr<const std::atomic<bool>> lastGone() {
     const std::lock_guard lock(mutex_);
     return last_gone_;

@@ -229,7 +229,8 @@ TEST_CASE("what is opened or closed counts for those that import it") {
   LanguageServer server;
   server.handle(request(0, "initialize"));
   const std::string importer = "file:///tmp/importer.sgm", imported = "file:///tmp/sgm-no-such.sgm";
-  /// The last diagnostics published about the importing document.
+  /// Sends a message about the document `uri`, and returns the last diagnostics that the server then publishes about
+  /// the importing document.
   const auto verdict = [&](const std::string& method, const std::string& uri, const std::string& text) {
     Json about;
     for (const Json& message : server.handle(

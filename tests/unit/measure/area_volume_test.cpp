@@ -1,4 +1,5 @@
-// Tests areas and volumes against geometry, and that the order of summation does not change them.
+// Tests areas and volumes against values that are known from geometry, and that the order of summation does not change
+// them.
 
 #include "measure/area_volume.h"
 
@@ -119,7 +120,8 @@ TEST_CASE("cubes counted by the three rules", "[cube_volume]") {
     for (unsigned seed = 0; seed < rounds(10); ++seed) {
       CAPTURE(seed);
       std::mt19937 random(seed);
-      // If samples are half an edge of the lattice apart, they coincide with coordinates of vertices.
+      // For even seeds, the samples are half an edge of the lattice apart, so some of their coordinates equal those of
+      // vertices.
       const Mesh mesh = randomSurface(random, 6);
       const double edge = seed % 2 == 0 ? 0.5 : between(random, 0.3, 0.7);
       const CubeVolumes found = *cubeVolumes(mesh, {0, 0, 0}, {5, 5, 5}, edge);

@@ -28,7 +28,8 @@ int exactly(Whole a, Whole b, Whole c, Whole d) {
   return sign(ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx));
 }
 
-/// A fourth point near the plane through three points: a combination of their differences, off by at most a few units.
+/// A fourth point near the plane through a, b and c: `a` plus a combination of b - a and c - a, off by at most one unit
+/// on each axis.
 Whole nearPlane(std::mt19937& random, Whole a, Whole b, Whole c) {
   const auto s = static_cast<int64_t>(random() % 7) - 3, t = static_cast<int64_t>(random() % 7) - 3;
   const auto off = [&] { return static_cast<int64_t>(random() % 3) - 1; };

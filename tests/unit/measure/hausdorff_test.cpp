@@ -1,4 +1,5 @@
-// Tests distances between surfaces: known ones, random ones against all triangles, and their bounds.
+// Tests distances between surfaces: known distances, distances of random meshes compared with a search of all
+// triangles, and the bounds of distances.
 
 #include "measure/hausdorff.h"
 
@@ -132,8 +133,8 @@ TEST_CASE("a surface is at no distance from itself, and at its own from a copy t
   CHECK(beside.atLeast() == Approx(0.2).margin(1e-12));
   CHECK(beside.atMost() == Approx(0.2).margin(1e-12));
   CHECK(beside.there.mean == Approx(beside.back.mean).margin(1e-12));
-  // Two of the cube's six sides are 0.2 away from the other cube; of the remaining four, only points near edges are
-  // off, by less than 0.2.
+  // Two of the cube's six sides are 0.2 away from the other cube. On the remaining four sides, only points near the
+  // edges have a distance from it, which is less than 0.2.
   CHECK(beside.there.mean > 0.2 * 2 / 6);
   CHECK(beside.there.mean < 0.2 * 3 / 6);
 }
@@ -143,7 +144,7 @@ TEST_CASE("concentric balls are apart by the difference of their radii, as far a
   for (int cuts = 2; cuts <= 4; ++cuts) {
     const Mesh inner = ball(cuts), outer = ball(cuts).moved([](Point p) { return 1.5 * p; });
     const Hausdorff apart = apartOf(inner, outer, {2, 1e-3, 100'000});
-    // Largest distance between a triangle and the ball: that of the middle of the largest triangle.
+    // Largest distance between a triangle and the ball, which occurs in the middle of the largest triangle.
     double sagitta = 0;
     for (const Triangle& t : inner.triangles) {
       const Point middle = (1.0 / 3) * (inner.points[t[0]] + inner.points[t[1]] + inner.points[t[2]]);

@@ -177,7 +177,8 @@ TEST_CASE("shells beside a cut stand in the solid that the open shells bound", "
     CHECK(nestingWith(outside, false) == std::array<uint64_t, 3>{0, 0, 0});
     CHECK(nestingWith(outside, true) == std::array<uint64_t, 3>{0, 1, 0});
 
-    // A ball in a cavity of the solid has an outer surface again, and a hollow in this ball is a cavity.
+    // A solid ball inside a cavity is valid: its surface faces outward again. A hollow in this ball counts as a second
+    // cavity.
     Mesh nested = cut_box, cavity = small.at(within), core = small.moved([](Point p) { return 0.5 * p; }).at(within);
     cavity.invert();
     nested.add(cavity);
@@ -187,8 +188,8 @@ TEST_CASE("shells beside a cut stand in the solid that the open shells bound", "
     nested.add(core.moved([&](Point p) { return within + 0.5 * (p - within); }));
     CHECK(measured(nested, settings).nesting.cavities == 2);
     CHECK(measured(nested, settings).validButForCut());
-    // Without an open shell, an inverted ball counts as a cavity in a solid that extends beyond the cut, unless another
-    // ball shows that there is void around.
+    // If no shell is open, an inverted ball counts as a cavity in a solid that extends beyond the cut. With a second
+    // ball that faces outward, there is void around both balls, so the inverted ball is inside out.
     Mesh alone = cavity;
     CHECK(measured(alone, settings).nesting.cavities == 1);
     alone.add(small.at(outside));

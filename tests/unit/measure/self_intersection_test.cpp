@@ -45,7 +45,7 @@ Int128 planeAt(const std::array<Int128, 4>& plane, const Ratio3& p) {
   return plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3] * p.w;
 }
 
-/// The exact part of the polygon in which the plane's value is at least 0.
+/// Clips a polygon exactly: keeps the part in which the plane's value is at least 0.
 std::vector<Ratio3> clipped(const std::vector<Ratio3>& polygon, const std::array<Int128, 4>& plane) {
   std::vector<Ratio3> kept;
   for (size_t i = 0; i < polygon.size(); ++i) {
@@ -87,7 +87,7 @@ bool meetExactly(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
 
 TEST_CASE("pairs of triangles, one by one", "[self_intersection]") {
   const std::vector<Point> p{{0, 0, 0},  {4, 0, 0}, {0, 4, 0},   // points 0 to 2: in the plane z = 0
-                             {1, 1, -1}, {1, 1, 1}, {5, 5, 0},   // points 3 to 5: cross triangle 0 1 2
+                             {1, 1, -1}, {1, 1, 1}, {5, 5, 0},   // points 3 to 5: triangle 3 4 5 crosses 0 1 2
                              {1, 1, 0},  {2, 1, 0}, {1, 2, 0},   // points 6 to 8: inside triangle 0 1 2
                              {0, 0, 4},  {4, 4, 0}, {8, 0, 0}};  // points 9 to 11
   const Triangle flat{0, 1, 2};
@@ -97,11 +97,11 @@ TEST_CASE("pairs of triangles, one by one", "[self_intersection]") {
   CHECK(meetWrongly(p, flat, {6, 9, 4}));         // a corner of one triangle touches the other triangle
   CHECK_FALSE(meetWrongly(p, flat, {0, 9, 4}));   // the triangles share only a corner
   CHECK(meetWrongly(p, flat, {0, 3, 4}));         // the triangles share a corner, and cross elsewhere
-  CHECK(meetWrongly(p, flat, {0, 6, 9}));         // share a corner; an edge lies in the other's plane
+  CHECK(meetWrongly(p, flat, {0, 6, 9}));         // share a corner; an edge of one triangle lies in the other's plane
   CHECK_FALSE(meetWrongly(p, flat, {0, 1, 9}));   // a common edge
   CHECK_FALSE(meetWrongly(p, flat, {1, 2, 10}));  // in one plane, on different sides of their common edge
   CHECK(meetWrongly(p, flat, {0, 1, 6}));         // in one plane, on the same side of their common edge
-  CHECK_FALSE(meetWrongly(p, flat, {2, 1, 0}));   // the triangle is the reversed first one
+  CHECK_FALSE(meetWrongly(p, flat, {2, 1, 0}));   // the same triangle, facing the other way
   CHECK_FALSE(meetWrongly(p, flat, {0, 1, 11}));  // without area
   CHECK(isFlat(p, {0, 1, 11}));
   CHECK(isFlat(p, {0, 0, 11}));
@@ -143,8 +143,8 @@ TEST_CASE("triangles on a small lattice meet where exact clipping says", "[self_
     const auto inward = [&](Point from, Point to) { return (k - 1) * from + to; };
     const Point o = common[0];
     bool meet = false;
-    // Divides a triangle without its cut-off corner into two triangles; k is so large that the cut-off part contains no
-    // intersection but the corner.
+    // Cuts off the corner o of the triangle o q r, and divides the remaining quadrilateral into two triangles. k is so
+    // large that the part that is cut off contains no intersection except the corner itself.
     const auto rest = [&](Point q, Point r) {
       return std::array<std::array<Point, 3>, 2>{
           {{inward(o, q), scaled(q), scaled(r)}, {inward(o, q), scaled(r), inward(o, r)}}};

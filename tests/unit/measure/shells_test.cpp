@@ -1,5 +1,5 @@
-// Tests shells, objects, borders and genus of known meshes, and of random ones against the lattices from which they
-// were made.
+// Tests shells, objects, borders and genus: of known meshes, and of random meshes, by comparison with the lattices from
+// which they were made.
 
 #include "measure/shells.h"
 

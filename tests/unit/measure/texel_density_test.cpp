@@ -72,7 +72,8 @@ TEST_CASE("quantiles are of the area, and the ratio is of the worst triangles") 
   CHECK(d.p95 == Approx(100 * std::sqrt(2)));
   CHECK(d.most == Approx(100 * std::sqrt(2)));
   CHECK(d.ratio() == Approx(std::sqrt(2)));
-  // A second, small plate with a hundredth of the area and ten times the density, which the median ignores.
+  // Adds a small second plate: it has a hundredth of the area and ten times the texel density. The median must not
+  // change.
   Mesh two = plate(1, 10);
   two.add(plate(1, 1).at({20, 0, 0}));
   const Coordinates dense = mapped(two, [](Point p) {

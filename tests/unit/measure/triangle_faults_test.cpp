@@ -101,7 +101,8 @@ TEST_CASE("folds, cuts and piercing by hand", "[faults]") {
   // numbers.
   CHECK(fault({{{0, 8, 0}, {8, 0, 0}, {0, 0, 0}}}) == PairFault::none);
   CHECK(fault({{{1, 1, -1}, {1, 1, 1}, {9, 9, 9}}}) == PairFault::cut);
-  CHECK(fault({{{1, 1, 0}, {1, 1, 1}, {9, 9, 9}}}) == PairFault::cut);  // only touches the floor triangle
+  // One corner touches the floor: that is a cut, but not a piercing.
+  CHECK(fault({{{1, 1, 0}, {1, 1, 1}, {9, 9, 9}}}) == PairFault::cut);
   CHECK(fault({{{0, 0, 0}, {4, 4, 1}, {4, 4, -1}}}) == PairFault::cut);
   CHECK(fault({{{0, 0, 0}, {4, 4, 0}, {4, 4, 0}}}) == PairFault::none);  // the second triangle has no area
   const auto pierce = [&](const Places& other) { return TrianglePair<IntegerSigns>::pierce(floor, other); };
@@ -166,7 +167,8 @@ TEST_CASE("a body's pairs are those within each cell where none is wide", "[faul
       for (int i = 0; i < 6; ++i) {
         for (int k = 0; k < 3; ++k) {
           const auto place = [&] { return 128 * anyOf(random, 3); };
-          // A triangle belongs to this cell if at least one of its corners is not in a high face of the cell.
+          // On each axis, one corner of the triangle lies in the cell's low face. So the triangle does not lie
+          // completely in a high face of the cell: then it would belong to the next cell.
           const int x = k == 0 ? 0 : place(), y = k == 1 ? 0 : place(), z = k == 2 ? 0 : place();
           of_cell.push_back(cornerAt(256 * cell + x, 256 * 3 + y, 256 * 31 + z, 0));
         }

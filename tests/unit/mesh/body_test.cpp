@@ -145,7 +145,7 @@ TEST_CASE("a vertex lies within its edge, by the ends' values in axis order", "[
   CHECK(crossing(kMaxQ, -1) == 255);
   CHECK(crossing(1, -511) == 1);  // 0.5 is rounded up
   CHECK(crossing(3, -509) == 2);  // 1.5 is rounded up
-  // 254.5 is rounded up as well: the direction of rounding is that of the axis, wherever the solid is.
+  // 254.5 is rounded up as well: halves are rounded towards the high end of the axis, whichever end is solid.
   CHECK(crossing(509, -3) == 255);
   size_t bad = 0;
   for (uint64_t i = 0; i < 100000; ++i) {

@@ -354,7 +354,8 @@ TEST_CASE("materials that others wrote stay, and .obj and .mtl change together o
   }
   const std::string after = contentOf(mtl);
   CHECK(after != before);
-  // A folder with the name of the .obj file appears while the mesh is written: the old .mtl file must be restored.
+  // While the mesh is written, a folder with the name of the .obj file appears, so that writing fails: the old .mtl
+  // file must be restored.
   for (const bool had_materials : {true, false}) {
     fs::remove_all(obj);
     if (!had_materials) fs::remove(mtl);
@@ -410,7 +411,7 @@ TEST_CASE("an export that fails leaves nothing behind and the old file as it was
 TEST_CASE("a full disk is one clear error, and nothing stays behind", "[mesh][export]") {
   const Folder folder;
   const WorldMesh mesh = someMesh();
-  // A limit on the file size makes the write fail as a full disk does.
+  // Limits the size of files, so that a write fails as it does on a full disk.
   rlimit before{};
   REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);

@@ -192,8 +192,8 @@ TEST_CASE("diagonals that are not free are not taken", "[mesh][sharpen]") {
 }
 
 TEST_CASE("strips between two creases are covered once, with the creases for edges", "[mesh][sharpen]") {
-  // A floor with two walls, on its edges x = left and x = right; the ring goes up one wall, along the floor's ends, and
-  // up the other wall.
+  // A floor with two walls, on its edges x = left and x = right. The ring runs along one wall, along an end of the
+  // floor, along the other wall, and along the other end of the floor.
   size_t seen = 0;
   for (unsigned seed = 1; seed <= rounds(3000); ++seed) {
     std::mt19937 random(seed);
@@ -222,13 +222,14 @@ TEST_CASE("strips between two creases are covered once, with the creases for edg
     addEnd(left, right, 0);
     const auto start = static_cast<std::ptrdiff_t>(random() % ring.size());
     std::rotate(ring.begin(), ring.begin() + start, ring.end());
-    // `from_second` selects whether the patches that are cut off begin at the first or at the second face vertex of the
-    // ring; here, the walls must be cut off.
+    // If `from_second`, the patches that are cut off begin at the second face vertex of the ring, otherwise at the
+    // first one. The value is chosen so that the walls are cut off, and not the floor.
     const auto first = std::find_if(ring.begin(), ring.end(), [](const FanPoint& p) { return p.is_feature; });
     const bool from_second = first->name % 2 != 0;
     const auto isFree = [](uint32_t, uint32_t) { return true; };
     const LoopTriangles strip = stripTriangles(ring, from_second, isFree);
-    // A wall whose top is not convex may have no triangulation whose triangles all face the same way.
+    // No triangles are returned if a wall has none that all face the same way, which is possible if the wall's top is
+    // not convex.
     if (strip.count() == 0) continue;
     ++seen;
     REQUIRE(strip.count() == ring.size() - 2);

@@ -11,8 +11,8 @@ using namespace sgm;
 
 namespace {
 
-/// One of the 12 quads around the corner, with the octants and half axes that it touches, computed from geometry: its
-/// centre is (x, y, z) with one coordinate 0.
+/// One of the 12 quads around the corner. One coordinate of its centre is 0, the others are 1 or -1; the octants and
+/// half axes that the quad touches follow from the centre.
 struct Quad {
   std::array<int, 3> centre{};
   int below() const {
@@ -58,8 +58,8 @@ TEST_CASE("fans are the cycles of interface quads around a corner", "[mesh][fans
       checkerboard |= here == 4;
     }
     if (checkerboard) continue;
-    // Follows each cycle of quads from its lowest quad; every quad touches two half axes, and shares each of these with
-    // one other quad.
+    // The quads form cycles: every quad touches two half axes, and at each of them it meets exactly one other quad.
+    // Follows each cycle, beginning with its quad of lowest number.
     std::set<size_t> left(interface.begin(), interface.end());
     std::set<int> fans;
     while (!left.empty()) {

@@ -19,7 +19,7 @@ struct Leaf {
 
 class Octree {
  public:
-  /// Splits grid^3 root chunks, which have the level levels - 1, at random.
+  /// Begins with grid^3 root chunks of the level `levels` - 1, and splits chunks at random.
   Octree(uint64_t seed, int grid, int levels);
 
   const std::set<Leaf>& leaves() const { return leaves_; }
@@ -27,7 +27,8 @@ class Octree {
   bool contains(Int3 p) const;
   /// The leaf that contains the lattice cell whose lowest corner is p. Precondition: contains(p).
   Leaf leafAt(Int3 p) const;
-  /// Flags of the blocks around a leaf that belong to coarser leaves; blocks outside the tree do not count.
+  /// A flag for each block around a leaf: whether the block belongs to a coarser leaf. Flags of blocks outside the tree
+  /// are not set.
   Neighbourhood coarserAround(const Leaf& leaf) const;
 
  private:

@@ -59,8 +59,8 @@ TEST_CASE("random octrees with random signs are closed", "[mesh][octree]") {
 }
 
 TEST_CASE("every way in which eight octants meet in a corner is closed", "[mesh][octree]") {
-  // The octants around the corner (64, 64, 64) are chunks of level 1, or those chunks of level 0 that touch the corner;
-  // all other space is void.
+  // Each of the eight octants around the corner (64, 64, 64) is either a chunk of level 1, or contains only the chunk
+  // of level 0 that touches the corner. All other space is void.
   const auto meets = [](unsigned coarser) {
     for (int axis = 0; axis < 3; ++axis) {
       const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
@@ -88,7 +88,8 @@ TEST_CASE("every way in which eight octants meet in a corner is closed", "[mesh]
         const auto low = [&](int axis) { return (o >> axis & 1) != 0 ? 64 : coarse ? 0 : 32; };
         Neighbourhood around = 0;
         if (!coarse) {
-          // Blocks towards the corner lie in neighbouring octants, all other blocks in the chunk's own octant.
+          // i numbers the 27 blocks in and around the chunk. Along each axis, a step towards the corner leads into the
+          // neighbouring octant; any other step stays in the chunk's own octant.
           for (int i = 0; i < 27; ++i) {
             const std::array<int, 3> offset{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
             int octant = o;

@@ -43,8 +43,8 @@ std::array<int32_t, 8> randomCell(std::mt19937& random) {
   return q;
 }
 
-/// A side of a loop that is the loop's only side in one low face of its cell. In a face of the chunk, such a side may
-/// have a face vertex.
+/// A side (the segment between two consecutive vertices) of a cell's loop. It lies in one of the cell's low faces, and
+/// the loop has no other side in that face. If the face lies in a face of the chunk, the side may have a face vertex.
 struct LowSide {
   uint32_t behind;
   int axis;
@@ -64,8 +64,8 @@ std::vector<LowSide> lowSidesOf(const MeshPart& part, const SurfaceLoop& loop) {
   return once;
 }
 
-/// Whether both corners of the low face's edge at the high or low end of the axis `across` are on the same side of the
-/// surface, so that a face vertex may lie beyond that edge.
+/// Takes the edge of a low face at the high or low end of the axis `across`. Returns whether both corners of this edge
+/// are on the same side of the surface; then a face vertex may lie beyond the edge.
 bool isUncut(const std::array<int32_t, 8>& q, int axis, int across, bool high) {
   const int along = 3 - axis - across;
   const size_t from = high ? size_t{1} << across : 0, to = from | size_t{1} << along;
@@ -98,7 +98,7 @@ TEST_CASE("single cells have the loops that a body has", "[mesh][sharpen]") {
             REQUIRE(next < loops.all().size());
             const SurfaceLoop& of_body = loops.all()[next++];
             auto theirs = keysOf(body, of_body), ours = keysOf(part, loop);
-            // The loop of the body may start at a different vertex.
+            // The same loop of the body may start at a different vertex.
             const auto start = std::find(ours.begin(), ours.begin() + loop.count, theirs.front());
             std::rotate(ours.begin(), start, ours.begin() + loop.count);
             wrong += ours != theirs || of_body.cell != loop.cell;
@@ -132,8 +132,8 @@ TEST_CASE("rounded loops with face vertices at the border are valid", "[mesh][sh
       place[across] = 1 + anyOf(random, kSubcell - 1);
       place[along] = 1 + anyOf(random, kSubcell - 1);
       const bool high = anyOf(random, 2) == 0;
-      // Feature vertices may lie outside their cell, but not outside the chunk; these cells touch only low faces of the
-      // chunk.
+      // Feature vertices may lie outside their cell, but not outside the chunk. These cells touch only low faces of the
+      // chunk, so vertices may lie only beyond high faces of their cells.
       if (anyOf(random, 2) == 0 && high && isUncut(q, side.axis, across, high)) {
         place[across] = kSubcell + 9 + anyOf(random, kMaxOutside - 8);
         ++beyond;

@@ -22,7 +22,8 @@ using namespace sgm;
 namespace {
 
 using Vector = std::array<int64_t, 3>;
-using Corners = std::array<int, 3>;  ///< corners of a triangle, as numbers of the cube's edges on which they lie
+using Corners = std::array<int, 3>;  ///< corners of a triangle: for each corner, the number of the cube's edge that it
+                                     ///< lies on
 
 constexpr int kLeast = 1, kMost = 255;
 
@@ -48,7 +49,8 @@ Vector placeAt(int edge, int t) {
   return at;
 }
 
-/// A box of parameters: for each edge of the cube a range of t. (For the cube's corners, t has no effect.)
+/// A box of parameters: for each edge of the cube, a range of the vertex's position t along this edge. (The last
+/// entries stand for the cube's corners, for which t has no effect.)
 struct Box {
   std::array<int, kPlaces> lo, hi;
   Box() { lo.fill(kLeast), hi.fill(kMost); }
@@ -79,7 +81,7 @@ int orientationIn(const Box& box, int a, int b, int c, int d) {
   });
 }
 
-/// Whether the segment misses the triangle for all t in the box.
+/// Whether the segment misses the triangle for all positions t of the vertices in the box.
 bool segmentMisses(const Box& box, int from, int to, const Corners& t) {
   const int from_side = orientationIn(box, t[0], t[1], t[2], from), to_side = orientationIn(box, t[0], t[1], t[2], to);
   if (from_side * to_side > 0) return true;
@@ -103,9 +105,9 @@ size_t alignCorners(Corners& a, Corners& b) {
   return common;
 }
 
-/// Whether two triangles with a common side fold onto each other for no t in the box. They fold if they lie in one
-/// plane and on the same side of the common side: their normals, both computed along the common side, then point the
-/// same way.
+/// Whether there is no t in the box with which two triangles with a common side fold onto each other. They fold if they
+/// lie in one plane and on the same side of the common side: their normals, both computed along the common side, then
+/// point the same way.
 bool neverFolds(const Box& box, const Corners& a, const Corners& b) {
   if (orientationIn(box, a[0], a[1], a[2], b[2]) != 0) return true;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -119,13 +121,12 @@ bool neverFolds(const Box& box, const Corners& a, const Corners& b) {
   return false;
 }
 
-/// Whether the plane through three points separates the triangles: all corners of `a` that are not among the three
-/// points lie on one side, all of `b` on the other. A point that only one of the triangles has, or that both have, may
-/// lie in the plane.
+/// Whether the plane through three points separates the triangles: the corners of `a` lie on one side, the corners of
+/// `b` on the other. The plane may contain their common corners, and further corners of at most one of the triangles.
 bool separates(const Box& box, const Corners& plane, const Corners& a, const Corners& b) {
   const auto isInPlane = [&](int corner) { return std::find(plane.begin(), plane.end(), corner) != plane.end(); };
   const auto isShared = [&](int corner) { return std::find(b.begin(), b.end(), corner) != b.end(); };
-  // If both triangles have a corner of their own in the plane, they may meet there.
+  // If each triangle also has a corner of its own in the plane, the triangles may meet there.
   const bool a_touches = std::any_of(a.begin(), a.end(), [&](int c) { return isInPlane(c) && !isShared(c); });
   const bool b_touches = std::any_of(
       b.begin(), b.end(), [&](int c) { return isInPlane(c) && std::find(a.begin(), a.end(), c) == a.end(); });
@@ -142,8 +143,8 @@ bool separates(const Box& box, const Corners& plane, const Corners& a, const Cor
   return true;
 }
 
-/// Whether any plane through points of the cell separates the triangles; it must pass through the common corner, if
-/// they have one.
+/// Whether some plane separates the triangles. Tries the planes through any three points: corners of the triangles and
+/// of the cell. If the triangles have one common corner, tries only planes through it.
 bool anyPlaneSeparates(const Box& box, const Corners& a, const Corners& b, size_t common) {
   std::vector<int> places{a.begin(), a.end()};
   places.insert(places.end(), b.begin() + static_cast<std::ptrdiff_t>(common), b.end());
@@ -166,8 +167,8 @@ bool apartIn(const Box& box, const Corners& a, const Corners& b, size_t common) 
   return true;
 }
 
-/// Whether two triangles of a cell have only their common corners in common, for all t. budget: number of boxes that
-/// may still be examined; it is 0 at the end if no proof was found.
+/// Whether two triangles of a cell meet only in their common corners, for all t. budget: number of boxes that may still
+/// be examined; it is 0 at the end if no proof was found.
 bool provenApart(const Box& box, const Corners& a, const Corners& b, size_t common, int& budget) {
   if (budget == 0) return false;
   --budget;
@@ -190,7 +191,8 @@ bool provenApart(const Box& box, const Corners& a, const Corners& b, size_t comm
 
 using Triangulation = std::vector<Corners>;
 
-/// All triangulations of the part i..j of a loop whose diagonals satisfy `allowed`.
+/// Returns all triangulations of the part i..j of a loop that use only those diagonals for which `allowed` returns
+/// true.
 template <class Allowed>
 std::vector<Triangulation> triangulations(const std::vector<int>& loop, size_t i, size_t j, const Allowed& allowed) {
   if (j - i < 2) return {{}};
@@ -208,7 +210,8 @@ std::vector<Triangulation> triangulations(const std::vector<int>& loop, size_t i
   return all;
 }
 
-/// The triangulations from which the runtime chooses; with `all_chords`, all without a diagonal in a face of the cell.
+/// The triangulations from which the runtime chooses. all_chords: returns all triangulations without a diagonal in a
+/// face of the cell.
 std::vector<Triangulation> triangulationsOf(const std::vector<int>& loop, bool all_chords = false) {
   const auto n = static_cast<int>(loop.size());
   return triangulations(loop, 0, loop.size() - 1, [&](size_t i, size_t k) {
@@ -222,7 +225,7 @@ std::vector<Triangulation> triangulationsOf(const std::vector<int>& loop, bool a
 
 using Pair = std::pair<Corners, Corners>;
 
-/// All pairs of triangles that occur together in a choice of triangulations for a case's loops.
+/// All pairs of triangles that occur together if a triangulation is chosen for each of a case's loops.
 std::set<Pair> pairsOf(const std::vector<std::vector<int>>& loops) {
   std::set<Pair> pairs;
   std::vector<std::set<Corners>> triangles;

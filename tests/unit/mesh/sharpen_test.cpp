@@ -28,7 +28,8 @@ namespace {
 
 constexpr double kMost = 0.05;  // in cells: maximum distance between true edges and edges of the mesh
 
-/// A union of randomly rotated boxes and of slabs thinner than a cell; every second one is subtracted.
+/// A union of boxes and of slabs thinner than a cell, all rotated at random. Every second shape is subtracted from the
+/// union instead.
 struct JoinedBoxes : Field {
   std::vector<TurnedBox> boxes;
   explicit JoinedBoxes(uint64_t seed) {
@@ -101,8 +102,8 @@ Vector3 middleOf(const WorldMesh& mesh, size_t triangle) {
   return middle;
 }
 
-/// Edges of the mesh between triangles on different faces of the field. (The triangles' own normals are unreliable:
-/// positions are rounded to 256ths of a cell, which tilts thin triangles.)
+/// Returns the edges at which two triangles on different faces of the field meet. The faces are found from the field,
+/// because the normals of thin triangles are unreliable: rounding positions to 256ths of a cell tilts these triangles.
 std::vector<std::array<Vector3, 2>> creasesOf(const WorldMesh& mesh, const Field& field) {
   std::map<std::pair<uint32_t, uint32_t>, Vector3> other;
   std::vector<std::array<Vector3, 2>> creases;
@@ -126,9 +127,9 @@ ContentHash hashOf(MeshPart part) {
 }  // namespace
 
 TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen][costly]") {
-  // One box in four hundred is blunt at a corner on the border between the chunks, which passes through every box:
-  // samples in the border separate the corner from the rest of the box, or the field there does not show the third
-  // plane.
+  // The border between the two chunks passes through every box. About one box in four hundred has a corner in this
+  // border that stays blunt. The causes: samples in the border separate the corner from the rest of the box, or the
+  // field in the border does not show the corner's third plane.
   size_t blunt = 0;
   for (uint64_t seed = 1; seed <= rounds(200); ++seed) {
     INFO("seed " << seed);
@@ -162,7 +163,7 @@ TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen][costly]") {
     }
     for (size_t t = 0; t < sharp.indices.size(); t += 3) {
       const double off = std::fabs(box.at(middleOf(sharp, t), gradient)) / kCell;
-      // A triangle that faces into the solid, unless it is a sliver, must lie in a side of the box.
+      // Except for slivers, a triangle whose normal points into the solid must lie in the plane of a face of the box.
       if (dot(areaOf(sharp, t), gradient) < -2 * 0.02 * kCell * kCell) off_plane = std::max(off_plane, off);
     }
     blunt += off_true > kMost || off_mesh > kMost;
@@ -216,7 +217,8 @@ TEST_CASE("boxes joined and cut at random stay closed, with keys of their own", 
 
 namespace {
 
-/// The field JoinedBoxes, moved to the lowest or the highest corner of the two chunks' common face.
+/// The field JoinedBoxes, moved so that its origin is the lowest or the highest corner of the common face of the two
+/// chunks.
 struct AtCorner : Field {
   JoinedBoxes boxes;
   double up;
@@ -229,8 +231,8 @@ struct AtCorner : Field {
 }  // namespace
 
 TEST_CASE("sharp features do not depend on the field farther away than they say", "[mesh][sharpen]") {
-  // Shapes farther away than sharpReach() are in one chunk's program but pruned from the other's, so they must have no
-  // effect.
+  // Some shapes are in one chunk's program, but pruned from the other chunk's program. They are farther away than
+  // sharpReach(), so they must have no effect.
   int64_t farthest = 0;
   for (uint64_t seed = 1; seed <= rounds(60); ++seed) {
     INFO("seed " << seed);
@@ -257,10 +259,11 @@ TEST_CASE("sharp features do not depend on the field farther away than they say"
 TEST_CASE("seams do not depend on the coarser field farther away than they say", "[mesh][sharpen]") {
   constexpr int32_t kCoarseCell = 2 * kCell;
   int64_t farthest = 0;
-  // Only few seams evaluate the coarser field, so the test runs at least 40 rounds.
+  // Only few seams need samples of the coarser level's field, so the test runs at least 40 rounds.
   for (uint64_t seed = 1; seed <= std::max<uint64_t>(rounds(40), 40); ++seed) {
     INFO("seed " << seed);
-    // The shapes lie at the highest corner of the face, because the coarser neighbour's face continues beyond it.
+    // The shapes lie at the highest corner of the common face: beyond this corner, the larger face of the coarser
+    // neighbour continues.
     const AtCorner boxes(seed * 7, true);
     const auto coarse = [&](const Int3& p) {
       Vector3 gradient{};

@@ -33,7 +33,7 @@ struct TurnedBox : Field {
   Vector3 centre, half;
   std::array<Vector3, 3> axes;
 
-  /// A randomly rotated box around the middle of two chunks that are neighbours in x.
+  /// A randomly rotated box. Its centre is near the middle of the common face of two chunks that are neighbours in x.
   explicit TurnedBox(uint64_t seed) {
     const PathKey key{seed};
     axes[0] = randomDirection(key, 10);
@@ -84,7 +84,7 @@ struct TurnedBox : Field {
 struct Sphere : Field {
   double radius;
   Vector3 centre;
-  /// By default, the centre is in the middle of two chunks that are neighbours in x.
+  /// By default, the centre is near the middle of the common face of two chunks that are neighbours in x.
   explicit Sphere(double r, const Vector3& c = {32.0 * kCell + 17, 16.0 * kCell - 5, 16.0 * kCell + 60})
       : radius(r), centre(c) {}
   double at(const Vector3& p, Vector3& gradient) const override {

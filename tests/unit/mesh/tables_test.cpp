@@ -52,7 +52,8 @@ bool crossed(const Cell& cell, int edge, uint32_t solid) {
   return ((solid >> a ^ solid >> b) & 1) != 0;
 }
 
-/// The points of a loop with random positions, in a cell of the size of a seam's cell.
+/// Gives the points of a loop random positions: coordinates from 0 to 511, as in the cell of a seam, which is two cells
+/// wide.
 std::vector<LoopPoint> randomPoints(const std::vector<int>& loop, const uint16_t* edge_faces, uint64_t seed) {
   std::vector<LoopPoint> points;
   for (size_t i = 0; i < loop.size(); ++i) {
@@ -63,8 +64,8 @@ std::vector<LoopPoint> randomPoints(const std::vector<int>& loop, const uint16_t
   return points;
 }
 
-/// The best minimum triangle area that a triangulation of the part i..j can have, found by trying all allowed
-/// triangulations.
+/// Considers all allowed triangulations of the points i..j of a loop. Compares them by the area of their smallest
+/// triangle; returns the largest such area, or -1 if no triangulation is allowed.
 int32_t bestByTrying(const std::vector<LoopPoint>& p, size_t i, size_t j) {
   if (j - i < 2) return std::numeric_limits<int32_t>::max();
   const bool outer = i == 0 && j + 1 == p.size();
@@ -146,8 +147,8 @@ TEST_CASE("every loop is triangulated without a diagonal in a face", "[mesh][tab
         std::vector<uint32_t> out(3 * (n - 2) + 1, 99);
         const uint32_t* end = table.triangulate(points, out.data());
         bad += end != out.data() + 3 * (n - 2) || out.back() != 99;
-        // Every directed side of the loop must occur once; every diagonal must occur once in each direction, and not
-        // lie in a face.
+        // Directed edges of the triangles: every side of the loop must occur once; every diagonal must occur once in
+        // each direction, and must not lie in a face of the cell.
         std::map<std::pair<uint32_t, uint32_t>, int> sides;
         for (size_t t = 0; t + 3 < out.size(); t += 3)
           for (size_t i = 0; i < 3; ++i) ++sides[{out[t + i], out[t + (i + 1) % 3]}];
@@ -195,7 +196,7 @@ TEST_CASE("the chosen triangulation has the largest smallest triangle", "[mesh][
 }
 
 TEST_CASE("equal choices are settled by the first apex", "[mesh][tables]") {
-  // A regular polygon, for which all triangulations are equally good.
+  // Tests a square, and six points at one place: all triangulations of each are equally good.
   const Table cube = tables()[0];
   const std::vector<LoopPoint> square{{0, 0, 0, 1, 0}, {8, 0, 0, 2, 1}, {8, 8, 0, 4, 2}, {0, 8, 0, 8, 3}};
   std::vector<uint32_t> out(6);

@@ -1,4 +1,5 @@
-// Tests the separate voids of a chunk: their number is that of the mesh, and their masks are exact.
+// Tests the separate voids of a chunk: their number is that of the mesh, and the masks of the blocks that each void
+// touches are exact.
 
 #include "mesh/void_components.h"
 

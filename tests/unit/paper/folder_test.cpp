@@ -104,7 +104,8 @@ TEST_CASE("what is no report stays as it was") {
     fs::remove(target / "grammars");
   }
   CHECK(checkReportFolder(target));
-  // Edits of the folder: a file of unchanged size, a link to the same bytes, and an empty folder.
+  // Edits by the user, which must prevent the folder from being replaced: a file of unchanged size, a link to the same
+  // bytes, and an empty folder.
   write(target / "pictures/a.png", "OLD");
   refused();
   CHECK(contentOf(target / "pictures/a.png") == "OLD");

@@ -145,7 +145,8 @@ TEST_CASE("what a device leaves to the CPU is told of each") {
   const Result<StageResult> result = measureStage(building(), kCell * 32, 3, backend_runs, [] {});
   REQUIRE(result);
   CHECK(result->rows[0].on_cpu == 0);
-  CHECK(result->rows[1].on_cpu == 8);  // two chunks of each run's only batch
+  // there are four runs of one batch each, and the CPU meshes two chunks of every batch
+  CHECK(result->rows[1].on_cpu == 8);
 }
 
 TEST_CASE("errors name the stage and the contender") {

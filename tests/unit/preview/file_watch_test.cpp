@@ -21,7 +21,8 @@ void save(const std::filesystem::path& file, const std::string& text, int second
   std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(seconds));
 }
 
-/// Two calls of changed(): the first detects a change, the second that the file no longer changes.
+/// Calls changed() twice: the first call detects that the file has changed, the second that it no longer changes.
+/// Returns true if either call returned true.
 bool changedSoon(FileWatch& watch) {
   const bool first = watch.changed();
   return watch.changed() || first;

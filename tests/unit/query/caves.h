@@ -6,7 +6,7 @@
 namespace sgm {
 
 inline constexpr int32_t kCell = 512;
-inline constexpr int32_t kBeyond = 6;  // number of samples on each side of a region that are sampled, too
+inline constexpr int32_t kBeyond = 6;  // number of additional samples beyond each side of a region
 
 /// A cave: its samples, and the region of whole chunks that is queried.
 struct Cave {
@@ -65,7 +65,7 @@ inline VoidAnswer answered(const SignField& field, const VoidQuestion& question,
 }
 
 /// Whether `way` is a path from `from` to `to`: every place is open, every step joins neighbouring samples, and the
-/// length is the stated one.
+/// path has the length that `way` states.
 inline bool isWay(const VoidWay& way, const FloodedVoids& flooded, Int3 from, Int3 to, int32_t cell) {
   if (way.places.empty() || way.places.front() != Int3{from.x * cell, from.y * cell, from.z * cell}) return false;
   if (way.places.back() != Int3{to.x * cell, to.y * cell, to.z * cell}) return false;

@@ -78,7 +78,7 @@ WorldFieldSettings clouds(uint64_t seed) {
   return settings;
 }
 
-/// A random grid within the clouds, whose coordinates are not round numbers.
+/// A random grid within the clouds. The grid's coordinates are not round numbers.
 DensityGrid gridIn(std::mt19937& random, uint32_t most = 70) {
   DensityGrid grid;
   grid.spacing = static_cast<int32_t>(3000 + random() % 20000);
@@ -159,7 +159,8 @@ TEST_CASE("a volume is the same for any number of threads, and cut into any boxe
     const DensityGrid grid = gridIn(random);
     const Volume whole = volumeOf(field, grid, 1);
     for (const unsigned threads : {2u, 5u}) CHECK(volumeOf(field, grid, threads).values == whole.values);
-    // Computes the grid in two parts along each axis, and writes both into one array with the array's pitches.
+    // Computes the grid in two parts along each axis. Each part is written to its place in one array, with the pitches
+    // of the whole array.
     std::array<uint32_t, 3> at{};
     for (size_t axis = 0; axis < 3; ++axis) at[axis] = static_cast<uint32_t>(random() % grid.size[axis]);
     std::vector<float> joined(pointsOf(grid), -1.0f);
@@ -216,8 +217,8 @@ TEST_CASE("the mesh lies where density begins", "[density][costly]") {
       const Volume edge = volumeOf(queryField(world), ends, 1);
       REQUIRE(edge.values.size() == 2);
       wrong += (edge.values[0] > 0) == (edge.values[1] > 0);
-      // Half a cell away from the surface along the normal, there is fog on the inner side only, unless the surface is
-      // folded.
+      // Takes samples at half a cell from the surface, on both sides along the normal. Only the inner side may have
+      // fog, except where the surface is folded.
       DensityGrid sides;
       sides.size = {1, 1, 1};
       float density[2] = {};

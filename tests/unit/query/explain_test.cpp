@@ -1,4 +1,4 @@
-// Tests explain() against the field, and against overrides of the paths that it returns.
+// Tests explain(): compares its values with the field, and overrides the paths that it returns.
 
 #include <algorithm>
 #include <cmath>
@@ -21,13 +21,14 @@ std::array<double, 3> anyPlace(std::mt19937& random, double extent) {
   return {by(random), by(random), by(random)};
 }
 
-/// The unit position nearest to a point on the surface.
+/// The position in whole units that is nearest to a point on the surface.
 Int3 nearestUnit(const std::array<double, 3>& p) {
   return {static_cast<int32_t>(std::lround(p[0])), static_cast<int32_t>(std::lround(p[1])),
           static_cast<int32_t>(std::lround(p[2]))};
 }
 
-/// Whether each operation above the shape takes the shape's value unchanged or not at all.
+/// True if every operation above the shape (unite, meet, subtract) either ignores the shape's value, or passes it on
+/// unchanged or with the opposite sign.
 bool isExact(const std::vector<ExplainedNode>& nodes, size_t leaf) {
   for (size_t i = 0; i < leaf; ++i) {
     const ShapeKind kind = nodes[i].kind;
@@ -58,7 +59,7 @@ void checkWorld(const std::string& text, uint64_t seed, int32_t cell, double ext
     const ExplainedNode& leaf = found->nodes[found->leaf];
     CAPTURE(leaf.path);
     ++count.told;
-    // If two groups touch, either may decide: its field value equals the world's.
+    // If two groups touch at the place, explain() may find either group: both have the world's field value there.
     CHECK((whole.cuts ? -whole.value : whole.value) == found->value);
     if (isExact(found->nodes, found->leaf)) {
       CHECK(std::fabs(leaf.value) == std::fabs(found->value));
@@ -97,8 +98,8 @@ TEST_CASE("what is said to make a surface makes it: without it the field is anot
   }
   CHECK(count.told > 10);
   CHECK(count.exact > 0);
-  // Removing a shape need not change the field if another shape shares its face or contains it, so the check requires
-  // only half of the edits to change it.
+  // Removing a shape may leave the field unchanged, because another shape contains the shape or shares its face. So the
+  // check requires only that half of the removals change the field.
   CHECK(count.edited * 2 > count.told);
 }
 

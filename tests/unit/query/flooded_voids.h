@@ -111,8 +111,8 @@ inline const std::vector<Int3>& joiningSteps() {
   return steps;
 }
 
-/// All voids of a closed box of samples in which a ball fits, found by examining the surroundings of every sample and
-/// by flooding.
+/// Finds all voids of a closed box of samples in which a ball fits. Examines the surroundings of every sample, and then
+/// finds the connected samples by a flood fill.
 class FloodedVoids {
  public:
   FloodedVoids(const SampledBox& lattice, const IntBox& region, double radius_in_cells)

@@ -133,7 +133,7 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
   const Int3 far{kMoved, -kMoved, kMoved};
   const Asked near_world(oneShape(shape)), far_world(oneShape(shape, 256, far));
   const Vector shift{kMoved, -kMoved, kMoved};
-  // A sample of the shape decides in which direction the language's rotation turns.
+  // Determines from a sample of the shape in which direction the language's rotation turns.
   const double turned =
       solidAt(near_world.field, rounded({std::sin(angle) * 3 * kMetre, 0, std::cos(angle) * 3 * kMetre})) ? angle
                                                                                                           : -angle;
@@ -141,7 +141,7 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
   int hits = 0, nearest = 0;
   for (unsigned i = 0; i < rounds(200); ++i) {
     CAPTURE(i);
-    // The coordinates are multiples of 1/16 unit, which are exact at both places.
+    // The coordinates are multiples of 1/16 unit, so that they are exact near the origin and far from it.
     Vector from = dice.place(6 * kMetre);
     for (double& p : from) p = std::floor(p * 16) / 16;
     const Vector there = along(shift, from, 1);
@@ -175,7 +175,8 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
     CHECK(found->inside == (away < 0));
     CHECK(std::fabs(boxDistance(found->position, size, turned)) < 1.5);
     CHECK(length(less(found->position, from)) == Approx(found->distance).margin(1e-6));
-    // The interface states this tolerance of distances.
+    // The tolerance that the interface documents: a distance may be up to 1.5 units too small, or too large by up to
+    // 65.5 units plus 1/64 of itself.
     CHECK(found->distance > std::fabs(away) - 1.5);
     CHECK(found->distance < std::fabs(away) * 65 / 64 + 64 + 1.5);
     CHECK(far_found->distance == found->distance);
@@ -205,7 +206,7 @@ TEST_CASE("the surface nearest to a place by a ball is exact, inside and out") {
     if (away > 8) CHECK_FALSE(closest(asked.field, from, away - 4 - away / 64));
   }
   WARN("nearest points: at most " << worst << " units too far");
-  // From the middle, all of the surface is equally near.
+  // All points of the surface have the same distance from the middle.
   const auto middle = closest(asked.field, {0, 0, 0}, 20 * kMetre);
   REQUIRE(middle);
   CHECK(middle->distance == Approx(radius).margin(64 + radius / 64));
@@ -223,7 +224,8 @@ TEST_CASE("the answers do not depend on the cell, odd, tiny or larger than the s
       const double away = length(less(from, middle)) - kMetre;
       const Vector towards = less(middle, from);
       const auto hit = cast(asked.field, from, towards, 4 * kMetre);
-      // A ball of a third of a cell lies between the samples, and its quantised field is as coarse as the cell.
+      // The larger the cells, the larger the tolerance. If a cell is three times as large as the ball's radius, the
+      // ball may lie between samples, and the quantised field is as coarse as the cell.
       const double rough = 2 + cell / 512.0;
       REQUIRE(hit);
       CHECK(hit->distance == Approx(away).margin(rough));
@@ -243,8 +245,8 @@ TEST_CASE("a wall is hit from any side, a cell thick or a sixteenth of one") {
     for (unsigned i = 0; i < rounds(200); ++i) {
       CAPTURE(thick, cell, i);
       const Vector from = dice.place(3 * kMetre), direction = dice.direction();
-      // side() is the signed distance from the wall's middle plane; `turn` is the sense of the wall's rotation, which a
-      // sample decides.
+      // side() is the signed distance from the wall's middle plane. `turn` is the direction of the wall's rotation,
+      // which is determined from a sample.
       const double c = std::cos(33 * 3.14159265358979 / 180), s = std::sin(33 * 3.14159265358979 / 180);
       const auto side = [&](const Vector& p, double turn) { return c * (p[1] - 0.211 * kMetre) + turn * s * p[2]; };
       const Vector to = along(from, direction, 8 * kMetre);
@@ -332,7 +334,7 @@ TEST_CASE("random rays and places in the cave agree with dense sampling, here an
       const Vector p{static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
       nearest = std::min(nearest, length(less(p, from)));
     }
-    // Parts that are only visible in samples between those of level 0 may be missed; the cave has hardly any.
+    // Parts that lie between the samples of level 0 may be missed; the cave has hardly any such parts.
     if (nearest < reach - 128) {
       REQUIRE(found);
       CHECK(found->distance < nearest * 65 / 64 + 64);

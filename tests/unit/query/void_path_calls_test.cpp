@@ -47,7 +47,8 @@ class Told {
       return true;
     };
   }
-  /// The total counts of all passes; checks that each pass was completed.
+  /// Returns the `total` that the progress calls of each pass announced, in the order of the passes. Checks that each
+  /// pass reached its total.
   std::vector<uint64_t> totals() const {
     std::vector<uint64_t> all;
     for (const auto& [done, total] : runs_) {
@@ -136,7 +137,8 @@ TEST_CASE("progress counts the chunks of each look and of the walk, and stops ea
   const Result<VoidAnswer> answer = findVoids(field, *jobs, question, told.counter());
   REQUIRE(answer);
   CHECK(isWay(*answer->way, FloodedVoids(cave.lattice, cave.region(), 1.5), {16, 4, 16}, {144, 636, 16}, kCell));
-  // The second pass is the search for the path. It visits all but the last group of chunks twice: 100 + 64 visits.
+  // The first pass visits each of the 100 chunks once. The second pass searches for the path. It visits the chunks in
+  // groups of 64: all 100 chunks, and then, on the way back, the 64 chunks before the last group again.
   const std::vector<uint64_t> totals = told.totals();
   REQUIRE(totals.size() >= 2);
   CHECK((totals[0] == 100 && totals[1] == 164));
@@ -178,16 +180,18 @@ TEST_CASE("the first progress comes long before a flat region is looked at, whic
       if (done == 1) before_first = sampled;
       return true;
     }));
-    // Every chunk is sampled once, including those around the region: the search never samples a dropped chunk again.
+    // Every chunk of the region, and every chunk around it, is sampled only once: the search never needs a chunk again
+    // that it has dropped.
     CHECK(sampled == 26 * 26 * 3);
-    // The first 64 chunks are in three rows, and need the rows around them, too.
+    // The first group of 64 chunks fills two rows and a part of a third. The rows on both sides of these three are
+    // sampled, too.
     CHECK(before_first <= 5 * 26 * 3);
   }
 }
 
 TEST_CASE("of a long region a search keeps little at one time", "[costly]") {
-  // Regions of 3 by 3 by 300 chunks, all with a surface, long along each axis in turn; sanitizers take minutes for
-  // each.
+  // Tests regions of 3 by 3 by 300 chunks, in each of which all chunks contain a surface. The long side lies along each
+  // axis in turn. With sanitizers, each region takes minutes.
   const int axes = std::min(3, static_cast<int>(rounds(5)));
   for (int axis = 3 - axes; axis < 3; ++axis) {
     CAPTURE(axis);

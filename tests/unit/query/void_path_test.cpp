@@ -26,8 +26,8 @@ class Random {
   std::mt19937 random_;
 };
 
-/// Random void samples, with densities around the one at which they connect, so that voids cross each border very
-/// often.
+/// Fills the cave with random void samples. Their density is near the percolation threshold, at which the samples begin
+/// to connect, so that voids cross each border very often.
 void strew(Cave& cave, Random& random) {
   const double share = random.real(0.08, 0.3);
   for (size_t i = 0; i < cave.lattice.samples(); ++i) cave.lattice.set(cave.lattice.sampleAt(i), !random.chance(share));
@@ -104,7 +104,7 @@ Cave randomCave(uint32_t kind, Random& random) {
   return cave;
 }
 
-/// A random void sample; sometimes, or if there is none, any sample.
+/// Returns a random void sample. Sometimes, or if there is no void sample, returns an arbitrary sample instead.
 Int3 someSample(Random& random, const Cave& cave, const FloodedVoids& flooded) {
   const Int3 any = random.in(cave.region());
   if (random.chance(0.03)) return any;
@@ -115,7 +115,7 @@ Int3 someSample(Random& random, const Cave& cave, const FloodedVoids& flooded) {
   return any;
 }
 
-/// Counts of what the tests have met, which prove that the tests are not empty.
+/// Counts of the situations that have occurred in the random tests. They prove that the tests cover each situation.
 struct Seen {
   size_t found = 0, apart = 0, narrow = 0, rock = 0;
   double walked = 0, shortest = 0;
@@ -164,7 +164,8 @@ TEST_CASE("random caves: voids and verdicts are those of a flood of all samples,
     CAPTURE(seed);
     Random random(seed);
     const Cave cave = randomCave(seed, random);
-    // Scattered void samples and thin tubes are one sample wide, and closed for any larger agent.
+    // Scattered void samples and thin tubes are one sample wide, so that agents which are larger than a sample do not
+    // fit in.
     const int widths = seed % 2 == 0 && random.chance(0.9) ? 2 : 5;
     const double radius = std::array{0.0, 0.9, 1.0, 1.5, 2.3}[static_cast<size_t>(random.below(widths))];
     compare(cave.lattice.field(kCell), cave, random, radius, seen);

@@ -19,7 +19,7 @@ Pieces pieced(int nx, int ny, int nz, const Solid& solid) {
   const size_t words = ComponentCounter::rowWords(columns);
   ComponentCounter counter(columns, rows);
   for (int z = 0; z < nz; ++z) {
-    // Some bits after the end of a row are set, because they must not matter.
+    // Some bits after the end of a row are set, to test that they have no effect.
     std::vector<uint64_t> plane(words * rows, 0);
     for (size_t y = 0; y < rows; ++y) {
       for (size_t x = 0; x < words * 64; ++x) {

@@ -38,8 +38,8 @@ void turn(VertexAttributes& vertex) {
   vertex.normal_y = static_cast<int16_t>(folded(y, x));
 }
 
-/// Moves vertices to the zeros of a linear field between both ends of their edges, where they are before packing rounds
-/// them.
+/// Moves each vertex to its exact place, before the rounding by packing: the zero of a linear function between the
+/// field's values at both ends of the vertex's edge.
 void placeExactly(const MeshedWorld& world, WorldMesh& mesh) {
   const int32_t cell = world.field().cellAt(0);
   const Result<std::shared_ptr<const FieldProgram>> field = world.field().compile(IntBox::everything(), 0);
@@ -89,9 +89,10 @@ TEST_CASE("normals are the gradient, and vertices lie on the surface") {
     CHECK(found.normals.p99 <= found.normals.greatest);
     CHECK(found.normals.median <= found.normals.p99);
     CHECK(found.faces.inward == 0);
-    // A diagonal of a cell spans 6.2 degrees at the smallest radius, 2 m.
+    // Triangles may deviate from the field's normal by the angle that a cell's diagonal spans: 6.2 degrees at the
+    // smallest radius, 2 m.
     CHECK(found.faces.p99 < 6.2);
-    // The expected error is the sagitta h^2 / (8 r), and the rounding of positions, 1/512 of a cell.
+    // The expected error is the sum of the sagitta, h^2 / (8 r), and of the rounding of positions, 1/512 of a cell.
     CHECK(found.residual_max * metres(1) < 0.125 * 0.125 / 8 / 1.5 + 0.125 / 512 + 1e-4);
     CHECK(found.residual_mean <= found.residual_p99);
     CHECK(found.residual_p99 <= found.residual_max);
@@ -117,7 +118,8 @@ TEST_CASE("normals of triangles converge with the cell, and vertices with its sq
     CAPTURE(shape, normals, residuals, means);
     CHECK(orderOfErrors(normals) >= 0.9);
     CHECK(orderOfErrors(means) >= 1.9);
-    // The first cell size is two fifths of the smallest radius, so higher-order terms still dominate its largest error.
+    // Leave out the first cell size: it is two fifths of the smallest radius, so higher-order terms dominate its
+    // largest error.
     residuals.erase(residuals.begin());
     CHECK(orderOfErrors(residuals) >= 1.9);
   }

@@ -30,7 +30,7 @@ TEST_CASE("a fitted asset is closed and of one piece in every size, and has its 
     };
     const auto& [name, mesh] = assets[seed % 3];
     const asset::Polyhedron solid = asset::solidOf(mesh);
-    // These sizes leave at least a cell above an arch: they are not both wide and low.
+    // No size is both wide and low: otherwise less than a cell of solid could remain above an arch.
     const asset::Point size{between(3, 5.5), between(5, 8), between(1, 4)};
     std::vector<asset::FitZone> zones;
     std::string text = std::string("fit ") + name;
@@ -49,7 +49,8 @@ TEST_CASE("a fitted asset is closed and of one piece in every size, and has its 
     files.files[std::string(name) + ".glb"] = asset::glbOf(mesh);
     const World world(grammar, &files);
     const IntBox box = world.program().domain.box;
-    // The box that the compiler computes for the domain exceeds the scope, rotated by any angle, by at most about 1 m.
+    // The box that the compiler computes for the domain contains the scope rotated by any angle, and exceeds it by at
+    // most about 1 m.
     const double half = 0.5 * std::sqrt(size.x * size.x + size.z * size.z) + 1.1;
     CHECK(box.hi.x <= half * kMetre);
     CHECK(box.hi.y <= (0.5 * size.y + 1.1) * kMetre);

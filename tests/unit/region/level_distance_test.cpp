@@ -86,7 +86,7 @@ TEST_CASE("a coarse mesh that is off is found, wherever either counts from", "[c
   };
   const double before = measured().atLeast();
   CHECK(before < 0.1);
-  // Moves the origin and the positions, so that the mesh stays at the same place.
+  // Change the mesh's origin and, by the opposite amount, its positions: the mesh stays at the same place.
   const Int3 origin = coarse.mesh.origin;
   coarse.mesh.origin = {origin.x - 5 * kMetre, origin.y, origin.z + kMetre};
   for (std::array<double, 3>& p : coarse.mesh.positions) p = {p[0] + 5, p[1], p[2] - 1};
@@ -95,7 +95,7 @@ TEST_CASE("a coarse mesh that is off is found, wherever either counts from", "[c
   const measure::Hausdorff moved = measured();
   CHECK(moved.there.at_least > 0.5 - before);
   CHECK(moved.back.at_least < 0.5 + before);
-  // Makes the coarse mesh empty.
+  // Remove all triangles of the coarse mesh.
   coarse.mesh.indices.clear();
   const Result<LevelDistance> vanished = levelDistance(fine.mesh, fine.extent, coarse.mesh, kMetre, {}, meshed.jobs());
   REQUIRE(vanished);

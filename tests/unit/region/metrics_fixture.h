@@ -1,5 +1,5 @@
 #pragma once
-// Makes and measures worlds in one line, for tests.
+// For tests: functions that make a world and measure it in a single call.
 
 #include <memory>
 #include <string>

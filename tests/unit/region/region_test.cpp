@@ -220,8 +220,8 @@ TEST_CASE("the volume of a ball is right to first order, its area too", "[metric
   for (double cell : {0.5, 0.25, 0.125}) {
     const RegionMeasures ball = regionOfShapes("sphere(3m);", cell);
     INFO("cell " << cell << ": cubes " << ball.cubes << ", area " << ball.area);
-    // A wrongly counted cube lies within half its diagonal of the surface; cubes counted too much and too little nearly
-    // cancel.
+    // A wrongly counted cube lies within half its diagonal of the surface. Cubes that are wrongly included nearly
+    // cancel those that are wrongly omitted.
     CHECK(std::fabs(ball.cubes - 4 * pi * r * r * r / 3) < 4 * pi * r * r * cell * 0.1);
     CHECK(std::fabs(ball.area - 4 * pi * r * r) < 4 * pi * r * r * cell * 0.1);
     CHECK(ball.triangles > 0);

@@ -1,4 +1,5 @@
-// Tests the volume of a region's solid: it is that of the solid's closed surface, wherever the border cuts it.
+// Tests the volume of the solid in a region: it must equal the volume within the solid's closed surface, wherever the
+// region's border cuts the solid.
 
 #include "region/solid_volume.h"
 

@@ -37,7 +37,7 @@ TEST_CASE("of two hollows the one with the anchor is taken", "[render]") {
   REQUIRE(free_choice);
   CHECK(glm::distance(free_choice->camera.position, glm::vec3(0)) < 12);
 
-  // The anchors lie far outside, in rock, and in the small hollow.
+  // Three anchors: one far outside, one in rock, and one in the small hollow.
   const std::vector<glm::vec3> anchors{{200, 0, 0}, {30, 0, 0}, {60, 0, 1}};
   CameraRequest request;
   request.anchors = anchors;
@@ -98,7 +98,7 @@ TEST_CASE("the light that is asked for is set, whatever the view", "[render]") {
       CHECK(scene.lamps.size() == (light == Light::lamp ? 1 : 0));
       CHECK((glm::length(scene.headlamp.colour) > 0) == (light != Light::none));
     }
-    // The headlamp reaches farther if it is the only lamp.
+    // If the scene has no other lamp (alone), the headlamp reaches farther than beside another lamp (beside).
     RenderScene beside, alone;
     lightScene(view, Light::lamp, beside);
     view.lamps.clear();

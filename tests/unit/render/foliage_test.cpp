@@ -35,11 +35,12 @@ bool isBody(const Image& image, int x, int y) {
   return pixel[2] + 4 < std::max(pixel[0], pixel[1]);
 }
 
-/// Counts of pixels that show bodies, by their distance from the ball's middle (the outline is at 1).
+/// Numbers of pixels that show a surface and not the sky, by the distance of the pixel from the middle of the ball's
+/// picture, in radii of the ball's outline.
 struct Seen {
   int inside = 0, inside_all = 0, near = 0, far = 0;
-  /// Numbers of pixels inside the outline in which the background is visible, and of all pixels there: in the middle
-  /// and at the rim.
+  /// For the middle (below 0.6 radii) and the rim (up to the outline): the number of all pixels, and of those through
+  /// which the background is visible (gaps).
   int middle_gaps = 0, middle = 0, rim_gaps = 0, rim = 0;
 };
 
@@ -78,7 +79,7 @@ TEST_CASE("leaves stand out from a crown, and no farther than they reach", "[ren
   REQUIRE(bare);
   const Seen leaves = seenOf(*crown), bricks = seenOf(*bare);
   CHECK(leaves.inside > 0.6 * leaves.inside_all);
-  // The sky is visible through the crown's rim, but hardly through its middle.
+  // The sky is more often visible through the rim of the crown than through its middle.
   CHECK(leaves.rim_gaps * leaves.middle > leaves.middle_gaps * leaves.rim);
   CHECK(leaves.middle_gaps < 0.25 * leaves.middle);
   CHECK(bricks.inside > 0.99 * bricks.inside_all);
@@ -86,7 +87,7 @@ TEST_CASE("leaves stand out from a crown, and no farther than they reach", "[ren
   CHECK(bricks.near == 0);
   CHECK(leaves.far == 0);
   CHECK(bricks.far == 0);
-  // The outermost leaves, with no surface behind them, are lit, too.
+  // The outermost leaves have no surface of the crown behind them. They must be lit all the same.
   double sum = 0, count = 0;
   for (int y = 0; y < kSide / 4; ++y) {
     for (int x = 0; x < kSide; ++x) {
@@ -190,7 +191,8 @@ TEST_CASE("of near crowns the leaves alone are drawn, of all else its surface", 
 
 TEST_CASE("rays of the eye pass gaps of those triangles alone whose surface is not drawn", "[render]") {
   const std::vector<RenderMaterial> materials{materialByName("leaf"), materialByName("bark"), materialByName("glass")};
-  // A sheet of leaves is in front of a pane of glass; only the pane reflects.
+  // A sheet of leaves stands in front of a pane of glass. Only the pane reflects, so a pixel with a reflection shows a
+  // ray that passed through the sheet.
   const auto seen = [&](uint32_t second, float share, glm::vec2 texture) {
     TestMesh mesh;
     const auto addSquare = [&](float half, float z, RenderVertex like) {

@@ -1,4 +1,4 @@
-// Tests the sky above everything, and the land beyond the end of the world.
+// Tests the drawn sky, and the land that is drawn beyond the end of the world.
 
 #include "tools/render/land.h"
 
@@ -39,7 +39,7 @@ int channel(const Image& image, int x, int y, int c) {
   return image.rgba[static_cast<size_t>(4 * (y * image.width + x) + c)];
 }
 
-/// Difference between a pixel's red and blue: the whiter the pixel, the greater.
+/// Returns red minus blue of a pixel of the sky: negative for blue sky, near 0 for a white cloud.
 int whiteness(const Image& image, int x, int y) { return channel(image, x, y, 0) - channel(image, x, y, 2); }
 
 }  // namespace
@@ -72,7 +72,8 @@ TEST_CASE("no land lies under what is whole, nor under what is made", "[render]"
     addFloor(cut, {-50, -50}, {50, 50}, 0, material);
     CHECK(landAround(outdoors(cut, materials)).has_value() == (material == 0));
   }
-  // A floor between two walls: only the walls reach the region's border, so the floor is not its ground.
+  // A floor between two walls. Only the walls reach the region's border, so the floor does not count as the region's
+  // ground.
   TestMesh whole;
   addFloor(whole, {-49, -49}, {49, 49}, 0, 0);
   for (const float x : {-50.0f, 50.0f}) {
@@ -126,7 +127,8 @@ TEST_CASE("some of a fair sky is clouds, soft ones, and a world with its own clo
         clouded += whiteness(*seen, x, y) > whiteness(*plain, x, y) + 24;
         ++all;
         for (int c = 0; c < 3; ++c) {
-          // The cloudy sky is nowhere darker than thick cloud, and the sky without clouds is as uniform as plain air.
+          // With clouds, no pixel is darker than a thick cloud. Without clouds, neighbouring pixels differ little, as
+          // in plain air.
           REQUIRE(channel(*seen, x, y, c) > 60);
           REQUIRE(std::abs(channel(*plain, x, y, c) - channel(*plain, x - 1, y, c)) < 14);
         }

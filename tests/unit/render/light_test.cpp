@@ -179,7 +179,8 @@ TEST_CASE("water is the deeper the farther its shore, and what stands in it is w
   stage.add({-6, -1, -6}, {6, -1, -6}, {6, 5, -6}, {-6, 5, -6});
   stage.look({0, 3, 6}, {0, 0.5f, -6});
   const LightPlanes planes = stage.traced();
-  // The depth of the water at a row of the picture; if negative, the wetness of the surface.
+  // Returns the depth of the water at a row of the picture. If there is no water, returns minus the wetness of the
+  // surface.
   const auto water = [&](uint32_t y) {
     const uint32_t bits = planes.direct[size_t{y} * planes.width + 32].mirror[1] >> 16;
     const int exponent = static_cast<int>(bits >> 10 & 31u);
@@ -242,7 +243,7 @@ TEST_CASE("the filter keeps even light, takes out noise, and stops at edges", "[
   }
   const double mean = sum / 640, deviation = std::sqrt(square / 640 - mean * mean);
   CHECK(mean == Approx(1).margin(0.06));
-  CHECK(deviation < 0.12);  // without the filter, the deviation is 0.58
+  CHECK(deviation < 0.12);  // without filtering, the deviation would be 0.58
   CHECK(dark == Approx(0.25).margin(1e-4));
 }
 
@@ -341,8 +342,8 @@ TEST_CASE("a cloud sends no more light than it gets", "[render]") {
     sky += static_cast<double>(skyLight(glm::normalize(stage.scene.camera.position), to_sun).g) / kSides;
   }
   const double disc = 3.14159265 * 100 * 100;
-  // The light that leaves in all directions. The light that arrives is pi times sunLight() on the ball's disc, and the
-  // sky's mean radiance times 4 pi.
+  // leaves: light that leaves the ball in all directions. comes: light that arrives, which is pi times sunLight() on
+  // the ball's disc from the sun, and the sky's mean radiance times 4 pi from the sky.
   const double leaves = sum * 4 * 3.14159265,
                comes = disc * (3.14159265 * static_cast<double>(sunLight().g)) + disc * sky * 4 * 3.14159265;
   INFO(leaves / comes);
@@ -423,7 +424,7 @@ TEST_CASE("a name that is not known looks as a word of it that is", "[render]") 
   CHECK(materialByName("main_road").colour == materialByName("asphalt").colour);
   CHECK(materialByName("wall_ochre").colour == materialByName("plaster_ochre").colour);
   CHECK(materialByName("old_wet_road").colour == materialByName("wet_asphalt").colour);
-  // The name of a material has priority over words that only imply a material, wherever it is in the name.
+  // A word that names a material ("brick") has priority over words that only imply a material, wherever it stands.
   CHECK(materialByName("wall_brick").pattern == SurfacePattern::brick);
   CHECK(materialByName("roof_slate").pattern == SurfacePattern::slates);
   CHECK(materialByName("floor_wood").pattern == SurfacePattern::wooden);

@@ -5,8 +5,8 @@
 using namespace sgm;
 
 #if defined(__SANITIZE_ADDRESS__)
-// Mesa's drivers leak a little memory for each instance, and are unloaded before the leak check, so that no suppression
-// can name them: switch the leak check off.
+// Switches the leak check off: Mesa's drivers leak a little memory for each instance. They are unloaded before the
+// check, so suppressions cannot name them.
 extern "C" __attribute__((visibility("default"))) const char* __asan_default_options();
 extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
 #endif
@@ -75,13 +75,14 @@ TEST_CASE("a void is seen from inside, and its walls' backs are open", "[render]
   scene.headlamp.reach = 20;
   auto outside = renderer->render(scene);
   REQUIRE(outside);
-  CHECK(brightness(*outside, 48, 48, 20) > 60);  // the far wall, seen through the back of the near one
+  // The far wall is visible, since the back of the near wall is not drawn.
+  CHECK(brightness(*outside, 48, 48, 20) > 60);
 }
 
 TEST_CASE("relief that is too fine to be seen spreads highlights: what is far away is no mirror", "[render]") {
   auto renderer = testRenderer();
   if (!renderer) return;
-  // A dark wet ball 80 m away: a sample of the picture is as large as the relief, which must therefore act as
+  // A dark wet ball 80 m away. One sample of the picture is as large as the relief, so the relief must act as
   // roughness.
   const auto highlight = [&](float relief) {
     Stage stage{sphereMesh({0, 0, -110}, 30, false, 48)};
@@ -194,7 +195,8 @@ TEST_CASE("the same scene gives the same bytes, wherever its origin lies", "[ren
   auto again = renderer->render(scene);
   REQUIRE((first && again));
   CHECK(first->rgba == again->rgba);
-  scene.origin = {1024 * 1024 * 1500, -1024 * 1024 * 900, 1024 * 1024};  // whole periods of the materials' patterns
+  // The coordinates are multiples of the periods of the materials' patterns.
+  scene.origin = {1024 * 1024 * 1500, -1024 * 1024 * 900, 1024 * 1024};
   auto far_away = renderer->render(scene);
   REQUIRE(far_away);
   CHECK(first->rgba == far_away->rgba);

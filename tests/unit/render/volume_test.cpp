@@ -116,7 +116,7 @@ TEST_CASE("what lies far in a large volume counts, and the empty bricks before i
   fog.scene.medium.extinction = 0.05f;
   const VolumePicture picture = drawn(*renderer, fog.scene);
   CHECK(std::fabs(double{fog.at(picture, 48, 35).w} - std::exp(-0.05 * 10)) < 0.01);
-  // A ray that passes the column of fog sees no fog.
+  // A ray that passes beside the column of fog sees no fog.
   Fog column({60, 60, 60}, 1, [](glm::uvec3 p) { return p.x < 10 ? uint8_t{255} : uint8_t{0}; });
   const VolumePicture beside = drawn(*renderer, column.scene);
   CHECK(column.at(beside, 80, 35).w == 1.0f);

@@ -78,5 +78,5 @@ TEST_CASE("the brightest twentieth of what is in sight is brighter than the mean
   const LightPlanes planes = Wall().traced(Background::sky);
   CHECK(planes.brightness > 0);
   CHECK(planes.highlight > planes.brightness);
-  CHECK(planes.highlight < 2.5f);  // half of the brightness that sun and sky together could cause
+  CHECK(planes.highlight < 2.5f);  // the limit is half of the brightness that direct sun and sky together could give
 }

@@ -20,7 +20,7 @@
 namespace sgm::service {
 namespace {
 
-/// Whether the metric equals the value to sixteen digits.
+/// Whether two values agree to sixteen digits: the one that the metrics text gives, and the expected one.
 bool isWritten(double told, double value) { return std::abs(told - value) <= 1e-15 * std::abs(value); }
 
 const Series* find(const Metrics& metrics, const std::string& family, const std::string& name,
@@ -190,7 +190,8 @@ TEST_CASE("metrics tell of this process") {
   const auto now = static_cast<double>(std::time(nullptr));
   CHECK(started <= now + 2);
   CHECK(started > now - 24 * 3600);
-  // The metric counts the two descriptors of the pipe, but not those that reading /proc opens.
+  // The metric counts the two descriptors of the pipe, but not the descriptors that the metric itself opens to read
+  // /proc.
   int ends[2];
   REQUIRE(pipe(ends) == 0);
   CHECK(valueOf(read(), "process_open_fds", {}) == valueOf(before, "process_open_fds", {}) + 2);

@@ -103,8 +103,8 @@ TEST_CASE("a world that streams is watched: its figures rise, and its map is wha
   CHECK(told == expected);
   CHECK(map->total == count);
   CHECK(triangles == map->world.measures.value().drawn.triangles);
-  // Chunks of the finest level come first, then chunks are ordered by the distance of their middles from the viewer at
-  // the origin.
+  // The map lists chunks of the finest level first; chunks of the same level are ordered by the distance of their
+  // middles from the viewer, who is at the origin.
   const auto far = [](const DrawnChunk& chunk) {
     return std::tuple(chunk.level,
                       std::pow(chunk.x + 0.5, 2) + std::pow(chunk.y + 0.5, 2) + std::pow(chunk.z + 0.5, 2));
@@ -125,7 +125,8 @@ TEST_CASE("a map is gathered once a second, whoever asks for it", "[threads]") {
   streamed.settle();
   const std::optional<WorldMap> soon = worlds->map("balls");
   REQUIRE(soon);
-  // If a busy machine took longer, a new map may have been made already.
+  // The map is made anew only once a second, so it is still the empty one. A busy machine may have taken longer than a
+  // second; then nothing is checked.
   if (std::chrono::steady_clock::now() - asked < milliseconds(900)) CHECK(soon->total == 0);
   CHECK(comesTrue([&] { return worlds->map("balls")->total > 0; }));
   CHECK(std::chrono::steady_clock::now() - asked >= milliseconds(900));

@@ -403,8 +403,8 @@ TEST_CASE("whatever those who are told throw, the inspector goes on", "[threads]
 TEST_CASE("an upload ends where nobody waits for it", "[threads]") {
   const TemporaryFolder files;
   Bench bench(saying(files, framed(kValid)));
-  // The callback holds this object, as it holds an upload's file and a client's reply; the object is destroyed with the
-  // callback.
+  // The callback owns `reply`, as a real callback owns an upload's file and a client's reply. So `reply` is destroyed
+  // with the callback; its deleter checks that the inspector can be called at this time.
   const auto free = std::make_shared<std::atomic<bool>>(false);
   std::shared_ptr<int> reply(new int(0), [&, free](const int* number) {
     delete number;

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// Records the callbacks of an inspector. Each callback ends the failures of memory.
+/// Records the callbacks of an inspector. Each callback also ends the simulated lack of memory.
 class Told {
  public:
   void tell(Inspection said) {

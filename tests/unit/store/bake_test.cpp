@@ -31,7 +31,7 @@ TEST_CASE("a store's bytes do not depend on who baked what, in which order, or h
   for (size_t shard = 0; shard < shards; ++shard) order.push_back(shard);
   std::shuffle(order.begin(), order.end(), random);
   for (const size_t shard : order) {
-    // Each worker shares only the contents of the folder with the others.
+    // The workers share nothing but the contents of the folder.
     const Baking worker(scene.settings(), region, many.path);
     const store::Bakery bakery = worker.bakery();
     const auto costs = store::planOf(bakery, tiles);

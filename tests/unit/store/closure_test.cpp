@@ -62,7 +62,7 @@ Judged judge(const std::vector<std::unique_ptr<Meshed>>& chunks, const store::Ba
   return judged;
 }
 
-/// Whether a triangle has an edge that other parts or other chunks may share.
+/// True if the triangle has an edge that another part or another chunk may share.
 bool touchesBorder(const Meshed& chunk, size_t part, size_t triangle) {
   if (part != 0) return true;
   for (size_t k = 0; k < 3; ++k) {
@@ -117,18 +117,21 @@ TEST_CASE("chunks of all levels fit together, and no damage to a border passes",
       }
       chunk->borders[part] = store::bordersOf(mesh, static_cast<int>(part));
       const bool shows = chunk->borders[part] != before;
-      // If features are sharp, feature vertices may lie in a face of the chunk without belonging to its border.
+      // With sharp features, the parts of a chunk may have feature vertices that lie in a face of the chunk, but not on
+      // the mesh's border in this face.
       if (!sharp) CHECK(shows == at_border);
       if (shows) {
         const size_t problems = judge(chunks, region).told.size();
         tried[problems != 0] += 1;
-        // A seam of the coarsest level has no coarser chunk in the region, so nothing needs to match its outer border.
+        // Nothing needs to match the outer border of a seam at the coarsest level, because the region has no coarser
+        // neighbour there.
         if (part != 0 && chunk->key.level < 2) CHECK(problems != 0);
       }
       std::copy(was.begin(), was.end(), first);
       chunk->borders[part] = before;
     }
-    // Bodies have a seam or a neighbour at each face, except in the region's border, where nothing needs to match them.
+    // At each of its faces, a body borders on a seam or on a neighbour's body. Exception: at a face in the
+    // region's border, nothing needs to match.
     CHECK(tried[1] > 4 * tried[0]);
     // If the borders of two chunks are swapped, the check must find it.
     for (unsigned i = 0; i < 4; ++i) {

@@ -81,7 +81,7 @@ inline void writeFile(const fs::path& path, const Bytes& bytes) {
   REQUIRE(out.flush());
 }
 
-/// Sets the time of a file's last use to `seconds` ago.
+/// Sets the time of a file's last use to `seconds` before now.
 inline void age(const fs::path& file, std::chrono::seconds seconds) {
   fs::last_write_time(file, fs::file_time_type::clock::now() - seconds);
 }

@@ -326,7 +326,7 @@ TEST_CASE("a world that has no room for what is wanted says so, whatever its sto
     settings.mesh_bytes = size_t{21} << 20;
     settings.lod.finest_distance = 60.0 * kUnitsPerMetre;
     Scene scene(markedJobs(2), caveText(), settings);
-    // Keeps all meshes, as an engine that never releases them.
+    // Keeps all meshes, like an engine that never releases any.
     std::vector<std::shared_ptr<const ChunkSurface>> kept;
     const auto waitAndTake = [&] {
       const Result<void> waited = scene.world->waitIdle();

@@ -20,7 +20,7 @@ namespace sgm {
 
 enum class Fault {
   none,
-  no_ranges,    ///< sends the whole file instead of the requested range
+  no_ranges,    ///< ignores the requested range, and sends the whole file
   other_range,  ///< sends a different range than the requested one
   cut_off,      ///< sends fewer bytes than the header announces
   endless,      ///< sends more bytes than were requested

@@ -204,7 +204,7 @@ TEST_CASE("a folder that is no store, or one of another version, stays as it is"
   writeFile(store.root() / "format", text);
   CHECK(store.make().error().message.find("sgm store 99") != std::string::npos);
   CHECK(!store::openStores(std::array{store.root().string()}, {}, std::pmr::get_default_resource()));
-  // The folder as a worker leaves it if it is killed while it creates a store.
+  // The folder in the state in which a worker leaves it if the worker is killed while it creates a store.
   writeFile(folder.path / "begun" / "format.sgm-part0", text);
   CHECK(store::Folder(folder.path / "begun").make());
   writeFile(folder.path / "other" / "file", text);

@@ -52,7 +52,7 @@ TEST_CASE("a world streams from a store that version 0.2 has baked", "[store]") 
   CHECK(source->stats().hits > 2);
   CHECK(source->stats().misses == 0);
   CHECK(told.messages.empty());
-  // If the grammar differs, the store belongs to another world.
+  // With another grammar, the store belongs to another world, so nothing may be read from it.
   const uint64_t hits = source->stats().hits;
   compare(formerWorld("box(3m"), former.region(), *source);
   CHECK(source->stats().hits == hits);

@@ -1,4 +1,4 @@
-// Tests that parts from a store on a server equal derived ones, whatever is wrong with the server.
+// Tests chunks whose parts come from a store on a server: they equal derived chunks, whatever fault the server has.
 
 #include <thread>
 
@@ -133,7 +133,7 @@ TEST_CASE("whatever a server does, chunks are as they would be derived, which is
   struct Case {
     Fault fault;
     const char* message;
-    bool is_away;  ///< whether the server is not contacted for a while after the fault
+    bool is_away;  ///< true: after the fault, the source does not contact the server for a while
   };
   for (const Case& c :
        {Case{Fault::no_ranges, "ignores range requests", false},
@@ -153,7 +153,8 @@ TEST_CASE("whatever a server does, chunks are as they would be derived, which is
       if (!at_once) {
         ChunkMesher mesher = baked.baking.machine.mesher(baked.baking.world, nullptr);
         mesher.baked = source.get();
-        // Reads the index with this request; most parts are read later, when the server fails.
+        // This request makes the source read the store's index while the server works. Most parts are read later, when
+        // the server fails.
         ChunkRequest uniform;
         uniform.key = {0, {baked.requests[0].key.at.x, baked.requests[0].key.at.y, baked.requests[0].key.at.z}};
         uniform.seams = 0;
@@ -219,7 +220,8 @@ TEST_CASE("nobody waits for a silent server once reading is stopped", "[store][t
   const auto stopped = std::chrono::steady_clock::now();
   source->stop();
   reader.join();
-  // The request would time out after four seconds, but libcurl checks for cancellation once a second.
+  // The request's timeout is four seconds. Cancelling must end it earlier, since libcurl checks for cancellation once a
+  // second.
   CHECK(std::chrono::steady_clock::now() - stopped < std::chrono::milliseconds(3500));
   unlike += baked.unlike(*source);
   CHECK(unlike == 0);
@@ -300,7 +302,8 @@ TEST_CASE("an outage is told once a minute, and rests grow until it has been wel
   pass(1);
   CHECK(outage.failed(early, now));
   CHECK(!outage.failed(early, now));
-  // The answer to a request that began before the failure does not show that the server works again.
+  // The server answers a request that was sent before the failure. This answer does not show that the server works
+  // again.
   CHECK(!outage.answered(early, now));
   for (double rest : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 60.0, 60.0}) {
     CAPTURE(rest);
@@ -321,8 +324,8 @@ TEST_CASE("an outage is told once a minute, and rests grow until it has been wel
   pass(0.1);
   CHECK(outage.answered(begun, now));
   CHECK(outage.look(now) == Look::there);
-  // A failure soon after an answer is reported, because the last report was long ago; the server is not tried again at
-  // once.
+  // This failure follows soon after an answer. It is reported, because the last report was long ago. But the server is
+  // not tried again at once.
   begun = now;
   pass(0.1);
   CHECK(outage.failed(begun, now));
@@ -339,7 +342,7 @@ TEST_CASE("an outage is told once a minute, and rests grow until it has been wel
   CHECK(outage.failed(begun, now));
   pass(1.1);
   CHECK(outage.look(now) == Look::find_out);
-  // Repeated failures of a server are not all reported.
+  // If a server fails repeatedly within a short time, not every failure is reported.
   begun = now;
   pass(0.1);
   CHECK(outage.answered(begun, now));

@@ -1,5 +1,5 @@
-// Tests the byte budgets of updates: a run of updates delivers at most its budgets and one item more, and all items are
-// delivered in the end.
+// Tests the byte budgets of updates: any sequence of updates delivers at most the sum of its budgets and one item more,
+// and all items are delivered in the end.
 
 #include <limits>
 #include <random>
@@ -27,7 +27,7 @@ TEST_CASE("any updates in a row hand over at most their budgets and one item, an
     // Each update spends its budget unless no item is waiting, which bounds the number of updates.
     const uint64_t max_updates = all / std::max<uint64_t>(1, varies ? budget / 2 : budget) + 2 * items.size() + 2;
     for (uint64_t updates = 0; next < items.size(); ++updates) {
-      if (updates > 4000) break;  // tiny budgets only take more time, and test nothing new
+      if (updates > 4000) break;  // stop: many more updates with tiny budgets would take time, and test nothing new
       REQUIRE(updates <= 8 * max_updates);
       const uint64_t now = varies ? 1 + random() % budget : budget;
       credit.begin(now);
@@ -39,7 +39,8 @@ TEST_CASE("any updates in a row hand over at most their budgets and one item, an
       given.push_back(given.back() + bytes);
       budgets.push_back(budgets.back() + now);
     }
-    // The worst run of updates is the one over which given - budgets rises most.
+    // Finds the sequence of successive updates that exceeds its budgets most: the one over which `given` - `budgets`
+    // rises most.
     int64_t lowest = 0, worst = 0;
     for (size_t i = 0; i < given.size(); ++i) {
       const int64_t beyond = static_cast<int64_t>(given[i]) - static_cast<int64_t>(budgets[i]);

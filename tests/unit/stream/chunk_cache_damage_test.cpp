@@ -81,7 +81,8 @@ TEST_CASE("an entry that is whole but says what meshing did not is missed, and m
       cut.resize(random() % cut.size());
       miss(part, cut, 1);
     }
-    // Flips any bit of the vertices and triangles; only the file's hash protects the data after these.
+    // Flips a random bit of the vertices or triangles. The data that follow them in the file are not tested: only the
+    // file's hash protects them.
     const size_t mesh_at = (6 + 7 * 6) * 4;
     const size_t mesh_bytes = plain.surface.mesh.ranges[0].vertex_count * sizeof(Vertex) +
                               plain.surface.mesh.ranges[0].index_count * sizeof(uint32_t);
@@ -90,7 +91,7 @@ TEST_CASE("an entry that is whole but says what meshing did not is missed, and m
     miss(0, changed, 1);
   }
 
-  // These checks of a decoded part come after those of the codec.
+  // The following checks of a decoded part come after those of the codec.
   const ChunkPart good = *decodeChunkPart(contents[0], 0, *inputs, std::pmr::get_default_resource());
   const auto decodes = [&](const ChunkPart& p, int as = 0, const ChunkRequest* asked = nullptr) {
     const Bytes bytes = encodeChunkPart(as, p.mesh, p.anchors, p.voids, std::pmr::get_default_resource());

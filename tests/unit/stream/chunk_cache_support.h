@@ -132,7 +132,7 @@ inline std::vector<std::byte> inputsOf(const WorldField& world, const ChunkReque
 
 inline ChunkRequest caveRequest() {
   ChunkRequest request;
-  request.key = {0, {14, 11, 11}};  // a part of a hall, with the hall's anchor
+  request.key = {0, {14, 11, 11}};  // this chunk contains a part of a hall, and the hall's anchor
   request.signs = request.anchors = true;
   request.seams = 5;
   return request;

@@ -30,7 +30,8 @@ TEST_CASE("a chunk comes out of the cache as it was meshed", "[stream][disk]") {
       const WorldField fresh(scene.settings(), std::pmr::get_default_resource());
       request.coarser = random() % (Neighbourhood{1} << 26);
       CHECK(same(plain, meshed(machine.mesher(fresh, later.get()), request, nullptr, edits.get())));
-      // All parts are found in the cache, except those that are proven empty faster than they could be read.
+      // All parts are found in the cache, except parts that are proven to be empty in less time than reading them
+      // takes.
       const bool all = sampled(machine, world, request, edits.get());
       CHECK(later->stats().hits >= (all ? partCount(request) : drawnParts(plain.surface)));
       CHECK(later->stats().hits + later->stats().misses == partCount(request));

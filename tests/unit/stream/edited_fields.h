@@ -1,5 +1,5 @@
 #pragma once
-// Fields of the cave with other parameters, and fields of edited texts.
+// Makes fields of the sample grammar cave.sgm with other parameters, and fields of edited versions of its text.
 
 #include <memory>
 #include <string>
@@ -20,10 +20,10 @@ inline std::shared_ptr<const WorldField> fieldOf(const std::string& text, const 
   return fieldOf(std::move(settings));
 }
 
-/// The cave with all its layers; its drips appear at levels with cells of up to half a metre.
+/// The cave with all its layers. Its stalactites (the layer `drip`) appear at levels with cells of up to half a metre.
 inline std::string drippingText() { return replaced(yardstick("cave.sgm"), "detail 0.3m", "detail 0.6m"); }
 
-/// An edit of drippingText() as an author would make it.
+/// The grammar drippingText() after an edit that an author might make; `what` describes the edit.
 struct EditedText {
   std::string what, text;
 };

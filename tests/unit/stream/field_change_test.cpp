@@ -35,7 +35,7 @@ std::vector<Content> contentsOf(const WorldField& field, const std::vector<Chunk
   return contents;
 }
 
-/// Random chunks near halls, where most surfaces are.
+/// Returns requests for random chunks near the cave's halls, because most surfaces are there.
 std::vector<ChunkRequest> randomChunks(std::mt19937& random, const WorldField& field, int level, size_t count) {
   const IntBox halls{{-300000, -300000, -300000}, {600000, 600000, 600000}};
   const Result<std::vector<Anchor>> anchors = field.anchors(halls);
@@ -59,8 +59,8 @@ static_assert(kChunkCells * kStreamedCell == 1 << 14);
 
 /// Number of tested levels, with cells of 0.5 to 8 m: the cave's passages are omitted if cells are larger than 4 m.
 constexpr int kLevels = 5;
-/// Number of tested chunks of a level, half as many with a sanitizer: most of the tests' time is spent on meshing these
-/// twice for every changed text.
+/// Number of tested chunks of a level; half as many with a sanitizer. For every changed text, each of these chunks is
+/// meshed twice, which takes most of the tests' time.
 size_t chunksOf(int level) { return (rounds(4) < 4 ? 1u : 2u) * (level == 0 ? 30u : 6u); }
 size_t allChunks() {
   size_t all = 0;
@@ -128,7 +128,8 @@ TEST_CASE("cells that have read no parameter that differs are taken over and not
   for (int32_t x = 0; x < 3; ++x) CHECK(cellOf(*wetter, net, {x, 0, 0}) == cellOf(*from, net, {x, 0, 0}));
   CHECK(wetter->cacheStats().misses == 0);
   CHECK(wetter->cacheStats().cells < cells);
-  // A drip hangs from the ceiling of the hall that its probe found, so it depends on that hall's shape.
+  // A drip (a stalactite) hangs where its rule has found the ceiling of a hall by a probe (a ray). So the drip depends
+  // on the shape of this hall.
   const auto boxier = fieldOf(cave, "boxy", 0.9);
   uint64_t probed = 0;
   for (int32_t x = 0; x < 8; ++x) probed |= cellOf(*from, drip, {x, 2, 2})->chunk.parameters;

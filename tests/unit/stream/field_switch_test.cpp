@@ -74,7 +74,7 @@ TEST_CASE("every frame shows one field with one state of the edits, and is close
     CHECK(scene.world->stats().edits_drawn == scene.world->stats().edits);
     REQUIRE(log.import(scene.world->exportEdits(log.size())));
     checkFrame(scene, engine, log.snapshot().get(), last.get());
-    // A query refers to the drawn field.
+    // A query of the world uses the field that is drawn now.
     const Result<ContentHash> streamed = scene.world->hashBodies({{60000, 60000, 60000}, {90000, 90000, 90000}}, 0);
     REQUIRE(streamed);
   }
@@ -268,7 +268,8 @@ TEST_CASE("before anything is drawn one field takes another's place, and the nex
   go();
   CHECK_FALSE(fields.begin(progress));
   CHECK(fields.turn().drawn == 1);
-  // A new field ten times a second would restart the change of fields each time, and none would ever end.
+  // A new field every tenth of a second would restart the change of fields each time, so that no change would ever be
+  // completed.
   fields.want(fieldOf(caveText(), "boxy", 0.2));
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   CHECK_FALSE(fields.begin(progress));

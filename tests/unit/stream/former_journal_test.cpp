@@ -84,7 +84,8 @@ TEST_CASE("a journal of version 0.2 takes the identity of now when it is written
     CHECK(opened->message.empty());
     REQUIRE(log.merge(opened->operations));
     std::mt19937 random(1);
-    // If a brush is undone, redone and undone again, only the last undo is essential.
+    // If a brush is undone, redone and undone again, only the last undo is still needed, so the other operations can be
+    // left out of the journal.
     for (int i = 0; i < 75; ++i) {
       const EditId undone = log.undo(log.add(randomBrush(random, IntBox{{}, {}}.grown(1000), 500))->id)->id;
       REQUIRE(log.undo(log.undo(undone)->id));

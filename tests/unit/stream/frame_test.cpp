@@ -48,7 +48,7 @@ TEST_CASE("random octrees of a cave and of a cloud are closed in every vertex") 
     Int3 centre;
     int32_t cell;
   };
-  // At these cell sizes, coarse levels omit drips and octaves of noise, so the levels' fields differ.
+  // At these cell sizes, coarse levels omit the cave's stalactites and octaves of noise, so the levels' fields differ.
   const Scene scenes[] = {{"cave.sgm", {96 * 1024, 96 * 1024, 96 * 1024}, 128},
                           {"cloud.sgm", {450 * 1024, 1200 * 1024, 450 * 1024}, 4096}};
   for (const Scene& scene : scenes) {
@@ -95,7 +95,8 @@ TEST_CASE("a frame without one of its seams is seen to be open") {
 TEST_CASE("what viewers want of an endless world is closed, near the origin and far from it") {
   for (const int32_t far : {0, 1'500'000 * 1024}) {
     CAPTURE(far);
-    // The grammar has no drips, because a coarse chunk would contain hundreds of thousands of their small cells.
+    // The layer of stalactites is removed, because a coarse chunk would contain hundreds of thousands of its small
+    // cells.
     const std::string text =
         replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
     const WorldField world(settingsOf(text, 256, 3), std::pmr::get_default_resource());

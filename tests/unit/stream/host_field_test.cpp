@@ -90,14 +90,14 @@ TEST_CASE("a host's hills and the grammar's caves are one closed surface in ever
     above.cut = true;
     above.sample = [inner = above.sample](const SampleLattice& at, std::span<float> values) -> Result<void> {
       if (Result<void> sampled = inner(at, values); !sampled) return sampled;
-      for (float& value : values) value = -value;  // negates the field: what is cut is the air above the hills
+      for (float& value : values) value = -value;  // negated: the host's field then cuts away the air above the hills
       return {};
     };
     above.smooth = random() % 2 == 0 ? 2 * kUnitsPerMetre : 0;
     HostField rock =
         hostBall(96 * kHostMetre, 100 * kHostMetre, 96 * kHostMetre, 7 * kHostMetre, random() % 2 == 0 ? 1.0f : 0.0f);
     rock.label = makeLabel(1, 0);
-    // The bounds contain only a part of the rock, which is cut off there.
+    // The bounds contain only a part of the ball. The rock ends at the bounds.
     rock.bounds = {{90 * kUnitsPerMetre, 90 * kUnitsPerMetre, 90 * kUnitsPerMetre},
                    {101 * kUnitsPerMetre, 120 * kUnitsPerMetre, 120 * kUnitsPerMetre}};
     Scene scene(std::make_unique<LateJobs>(seed), caveText(), {}, {above, rock});
@@ -265,7 +265,7 @@ TEST_CASE("rays hit a host's field, as far as it goes in the world") {
     CHECK((*nearest)->distance == Approx(4 * kHostMetre).margin(102));
   }
 
-  // The end of the world cuts off cells of the field's samples.
+  // At the end of the world, the cells of the field's samples are cut off.
   const WorldField everywhere = hostedWorld({hills(0, 0, 0)}, 1000);
   for (const int32_t end : {INT32_MIN, INT32_MAX}) {
     const Int3 corner{end, 0, end};

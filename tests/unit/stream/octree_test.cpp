@@ -18,8 +18,8 @@ namespace {
 constexpr int kTop = 4;
 constexpr int32_t kCell = 256;
 
-/// Level of the leaf that covers a level-0 chunk; kTop + 1 if no leaf does. Does not use the octree's own checks of
-/// rules.
+/// Level of the leaf that covers a level-0 chunk; kTop + 1 if no leaf does. It is computed without the functions by
+/// which the octree itself checks its rules.
 int levelAt(const Octree& tree, Int3 at) {
   int level = kTop + 1;
   while (level > 0 && tree.isSplit({level, {at.x >> level, at.y >> level, at.z >> level}})) --level;

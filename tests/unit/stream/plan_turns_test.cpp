@@ -20,7 +20,7 @@ using Clock = PlanTurns::Clock;
 class CountedJobs final : public JobSystem {
  public:
   explicit CountedJobs(unsigned workers) : workers_(workers) {}
-  unsigned concurrency() const override { return workers_ + 1; }  // the engine's thread counts, too
+  unsigned concurrency() const override { return workers_ + 1; }  // the workers, and the engine's thread
   void submit(void (*)(void*), void*, int) override {}
   bool help() override { return false; }
 
@@ -33,7 +33,7 @@ class Simulation {
  public:
   struct World {
     PlanTurns::Member member;
-    double plan_cost = 0, chunk_cost = 0;  ///< seconds of work for one plan, and for one chunk
+    double plan_cost = 0, chunk_cost = 0;  ///< seconds of work that one plan takes, and that one chunk takes
     bool waits = false, plans = false, again = false;
     double waits_since = 0, longest_wait = 0;
     uint64_t planned = 0, meshed = 0;
@@ -230,8 +230,8 @@ TEST_CASE("a worker without work plans at once, whatever is owed") {
   turns.startDue(now);
   CHECK(begun == 6);
   turns.endPlan(member, 10);
-  // While nothing is meshed, a twentieth of the elapsed time makes up for the 10 s of the last plan; the credit does
-  // not become positive.
+  // The last plan has lowered the credit to -10 s. While nothing is meshed, each second adds 1/20 s, so the credit is 0
+  // again after 200 s. It does not rise above 0.
   turns.request(member);
   turns.startDue(now + std::chrono::seconds(190));
   CHECK(begun == 6);

@@ -34,7 +34,8 @@ class HeldJobs final : public JobSystem {
   std::deque<std::pair<void (*)(void*), void*>> jobs_;
 };
 
-/// Two worlds on one worker. The first has planned and waits for the worker to mesh; the second has requested a plan.
+/// Two worlds on one worker. The first has a plan, and waits for the worker to mesh its chunks; the second has
+/// requested a plan.
 struct TwoWorlds {
   TwoWorlds() : scene(std::make_unique<HeldJobs>()), jobs(static_cast<HeldJobs&>(*scene.jobs)) {
     auto turns = std::make_shared<PlanTurns>(jobs);
@@ -73,8 +74,8 @@ TEST_CASE("a world plans as soon as another one has left with jobs that never be
 TEST_CASE("a world whose viewers move all the time plans though nothing is meshed") {
   const auto begun_at = std::chrono::steady_clock::now();
   TwoWorlds worlds;
-  // Without meshing, the second world may plan when a twentieth of the elapsed time exceeds the duration of the first
-  // world's plan.
+  // If no chunks are meshed, the second world may plan as soon as the first world's plan took less than a twentieth of
+  // the time that has passed since.
   const auto at_most = begun_at + std::chrono::minutes(1) + 40 * (std::chrono::steady_clock::now() - begun_at);
   while (worlds.jobs.waiting() == 1 && std::chrono::steady_clock::now() < at_most) {
     worlds.move(*worlds.second);

@@ -45,7 +45,7 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
     std::vector<WorkItem> queue;
     WorldState edits, under;
     std::vector<WorldChange> edited;
-    std::vector<std::shared_ptr<const FrameStep>> offered;  // steps between frames that the engine may take
+    std::vector<std::shared_ptr<const FrameStep>> offered;  // offered steps that the engine may take
     PlanInput input;
     Viewer viewer;
     uint64_t frames = 0;
@@ -78,7 +78,8 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
       }
       queue = std::move(plan.queue);
       under = plan.edits;
-      // The engine holds at most two of the steps that were offered before.
+      // Of the steps offered so far, the engine can still take those that begin at the frame it draws now. Simulates an
+      // engine that holds at most two of them.
       std::erase_if(offered, [&](const auto& step) { return step->from != planner.applied().number; });
       std::shuffle(offered.begin(), offered.end(), random);
       if (offered.size() > 2) offered.resize(2);
@@ -86,7 +87,7 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
       for (size_t i = 0; i < offered.size(); ++i) input.in_hand[i] = offered[i]->to->number;
       if (plan.step != nullptr) offered.push_back(plan.step);
       input.applied = planner.applied().number;
-      // Memory sometimes seems to be full, so that all chunks are dropped that are not wanted.
+      // Memory sometimes seems to be full, so that the planner drops all chunks that are not wanted.
       input.live_bytes = random() % 3 == 0 ? size_t{200} << 20 : 0;
       if (!offered.empty() && random() % 2 == 0) {
         input.applied = offered[random() % offered.size()]->to->number;
@@ -242,7 +243,8 @@ TEST_CASE("what is known over new ground does not grow, and what is wanted is ke
     most = std::max(most, flight.planner.stats().records);
   }
   CHECK(flight.planner.stats().meshed > 10 * wanted);
-  // The planner keeps up to three times the wanted records and 1,024 more; it counts them every 16 plans.
+  // The planner keeps records of up to three times as many chunks as it wants, and of 1,024 more. It counts the records
+  // every 16 plans.
   CHECK(most < 4 * wanted + 2048);
   for (int turn = 0; turn < 500 && !flight.idle; ++turn) flight.plan(200);
   REQUIRE(flight.idle);

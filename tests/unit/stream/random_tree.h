@@ -9,8 +9,8 @@
 
 namespace sgm {
 
-/// An octree of eight chunks of the level above `top` around the origin, which is split `splits` times at places that
-/// are at most `reach` units from the origin on each axis.
+/// Returns an octree whose eight root chunks surround the origin, at the level above `top`. It is split `splits` times,
+/// at random places that are at most `reach` units from the origin on each axis.
 inline Octree randomTree(std::mt19937& random, int top, int32_t finest_cell, int splits, int32_t reach) {
   Octree tree(top, finest_cell);
   for (int corner = 0; corner < 8; ++corner) tree.split({top + 1, {-(corner & 1), -(corner >> 1 & 1), -(corner >> 2)}});

@@ -99,7 +99,7 @@ class Cluster {
   std::vector<bool> solid_;
 };
 
-/// Digs small hollows, and tubes between random places, some of which meet. Returns a place in each tube.
+/// Digs small hollows, and tubes between random places; some of the tubes meet. Returns a place in each tube.
 std::vector<Int3> digTubes(Cluster& cluster, std::mt19937& random, int count, double noise) {
   const auto real = [&](double lo, double hi) { return std::uniform_real_distribution<>(lo, hi)(random); };
   cluster.fill([&](Int3) { return real(0, 1) >= noise; });

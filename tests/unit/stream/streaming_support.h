@@ -236,7 +236,8 @@ inline void lookFrom(Scene& scene, Engine& engine, const Viewer& viewer) {
   comeToRest(scene, engine);
 }
 
-/// Spends about the time of a frame: runs jobs of the world, as an engine that lends its thread, or waits.
+/// Spends about the time of one frame. Either runs jobs of the world, as an engine does that lends its thread; or just
+/// waits.
 inline void workOrWait(Scene& scene) {
   for (int jobs = 0; jobs < 50; ++jobs) {
     if (!scene.jobs->help()) return std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -34,7 +34,8 @@ std::vector<Viewer> randomViewers(std::mt19937& random, size_t count, double spr
   return viewers;
 }
 
-/// Splits the nodes that the viewers require, by examining all viewers for every node.
+/// Splits all nodes below `node` that the viewers require to be split. Examines every viewer for every node, as a
+/// reference for the index.
 void splitWanted(Octree& tree, const ChunkKey& node, std::span<const LodViewer> viewers, const LodSettings& lod,
                  double near, const ChunkSet* finest) {
   if (node.level == 1 && finest != nullptr && !finest->contains(node)) return;
@@ -114,7 +115,8 @@ TEST_CASE("the octree that many viewers want is what each of them asks for") {
       }
       refineToRules(wanted);
       const Octree found = near > 0 ? nearTarget(viewers, lod, near, finest) : lodTarget(viewers, lod, finest);
-      // Results are compared only if the whole octree lies within the roots that were split above.
+      // The expected tree was split only within the roots above. Compare it with the result only if all split nodes of
+      // the result lie within these roots.
       bool inside = true;
       for (const ChunkKey& node : found.splitNodes()) {
         const int up = lod.top + 1 - node.level;

@@ -7,7 +7,7 @@ using namespace sgm;
 
 namespace {
 
-/// Number of parts of chunks, bodies and seams, that the engine draws and that have a surface.
+/// Number of bodies and seams of chunks that the engine draws and that have a surface.
 size_t drawnParts(const sgm::Engine& engine) {
   size_t count = 0;
   for (const auto& [key, shown] : engine.shown) {
@@ -38,8 +38,8 @@ TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and
     const DiskCacheStats cache = scene.world->stats().cache;
     if (again) {
       CHECK(hash == first);
-      // Both worlds end with the same frame. On the way, each world meshes other coarse chunks, depending on the timing
-      // of its threads; the second world stores those that the first one has not.
+      // Both worlds end with the same frame. Before that, they mesh different coarse chunks, depending on the timing of
+      // their threads. The second world stores those chunks that the first one has not stored.
       const size_t drawn = drawnParts(engine);
       CHECK(drawn > 50);
       CHECK(cache.hits >= drawn);

@@ -22,8 +22,9 @@ double wallAlong(const Engine& engine, const std::array<double, 3>& from, double
       if (part > 0 && !(shown.seams >> (part - 1) & 1)) continue;
       const PackedRange& range = mesh.ranges[part];
       for (uint32_t i = range.first_index; i < range.first_index + range.index_count; i += 3) {
-        // Corners of the triangle relative to the axis; the axis passes through it if all three signed areas have the
-        // same sign.
+        // The triangle's corners relative to a line along the x axis. Seen along this line, the line and each two
+        // corners form a triangle. The line passes through the whole triangle if the signed areas of these three have
+        // the same sign.
         std::array<std::array<double, 3>, 3> p{};
         for (size_t c = 0; c < 3; ++c) {
           const Int3 at = vertexUnits(shown.surface->grid, mesh.vertices[mesh.indices[i + c]]);
@@ -79,9 +80,9 @@ TEST_CASE("every frame of a wandering viewer is the closed frame of its octree")
 }
 
 TEST_CASE("a passage that a level leaves out ends in no larger a wall than is stated") {
-  // The largest error, as sgm.h states it at sgm_world_desc.finest_distance, in pixels of a screen whose focal length
-  // is 1 pixel.
-  const double width = 8, wider = 1;  // metres; wider: cell size of level 1, which exceeds the rule's detail
+  // The wall may appear as large as sgm.h states at sgm_world_desc.finest_distance. Sizes are in pixels of a screen
+  // whose focal length is 1 pixel.
+  const double width = 8, wider = 1;  // metres: width of the passage; edge of the first cell wider than its `detail`
   const std::string text = replaced(sample("passage.sgm"), "detail 4m", "detail 0.9990234375m");
   Scene scene(*makeThreadPool(2), text);
   const double cell = static_cast<double>(kStreamedCell) / kUnitsPerMetre;
@@ -145,7 +146,7 @@ TEST_CASE("no update hands over more bytes than it may, and a small budget loses
     Scene scene(*makeThreadPool(2));
     Engine engine;  // the engine fails the test if a chunk fails
     REQUIRE(scene.world->setViewers({&viewer, 1}));
-    // beyond: number of bytes that were delivered in excess of the budgets and not yet made up for by later budgets.
+    // beyond: by how many bytes the deliveries so far exceed the budgets so far; later, smaller deliveries reduce it.
     size_t updates = 0, beyond = 0, largest = 0;
     while (!scene.world->stats().idle && ++updates < 100'000) {
       REQUIRE(scene.world->update(budget));

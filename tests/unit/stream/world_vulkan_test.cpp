@@ -1,5 +1,5 @@
-// Tests a world that is streamed from a Vulkan device: it is closed in every frame, and ends equal to the world that
-// the CPU meshes.
+// Tests a world that is streamed from a Vulkan device: its surface is closed in every frame, and in the end equals the
+// surface that the CPU meshes.
 
 #include <cstdlib>
 #include <iostream>

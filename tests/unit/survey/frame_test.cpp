@@ -1,4 +1,5 @@
-// Tests finding uses of a rule, and the camera that shows one.
+// Tests the search for the uses of a rule (places where derivation applies it), and the choice of a camera that shows
+// such a place.
 
 #include "tools/framing/frame_camera.h"
 

@@ -1,5 +1,5 @@
-// Tests the choice of material pairs and of shares of planes: the most frequent ones are chosen, whatever the order of
-// corners.
+// Tests blends of materials, and weights of triplanar mapping. A blend must choose the two most frequent materials,
+// regardless of the order of the corners.
 
 #include <algorithm>
 #include <cmath>

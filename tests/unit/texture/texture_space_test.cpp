@@ -199,7 +199,8 @@ TEST_CASE("texture coordinates are as long as the surface, at right angles, and 
       const TextureSpace space(sample.chunk, 0, kUnitsPerMetre);
       for (int tries = 0; tries < 40; ++tries) {
         SurfacePoint s = sample.point(random);
-        if (tries % 2 == 1) s.normal = times(-1, s.normal);  // a cut shape, whose inside is void
+        // the surface of a shape that is cut away: its inside is void
+        if (tries % 2 == 1) s.normal = times(-1, s.normal);
         const Chart chart = space.chartOf(s.place, s.normal);
         TexturePoint side = crossOf(s.normal, randomDirection(random));
         while (lengthOf(side) < 0.1) side = crossOf(s.normal, randomDirection(random));
@@ -213,7 +214,8 @@ TEST_CASE("texture coordinates are as long as the surface, at right angles, and 
           return TextureCoordinates{(to.u - here.u) * kUnitsPerMetre / step, (to.v - here.v) * kUnitsPerMetre / step};
         };
         const TextureCoordinates du = way(a), dv = way(b);
-        // Since a, b and the normal are right-handed, the directions of u and v must be so, too.
+        // The vectors a, b and the normal are right-handed. So the directions of increasing u and of increasing v must
+        // form a right-handed system with the normal, too.
         const double turn = du.u * dv.v - du.v * dv.u;
         CHECK(turn > 1 / (sample.stretch * sample.stretch));
         CHECK(turn < sample.stretch * sample.stretch);
@@ -255,7 +257,7 @@ TEST_CASE("along a bent line the coordinates go on from segment to segment") {
     Shape whole;
     whole.kind = ShapeKind::unite;
     whole.size[0] = 2000;
-    // A gently curved path, as paths of sweeps are.
+    // Makes a gently curved path, like the paths that sweeps usually follow.
     double heading = uniform(random, 0, 6);
     const double turn = uniform(random, -0.15, 0.15), climb = uniform(random, -0.3, 0.3);
     TexturePoint at{uniform(random, -1e6, 1e6), uniform(random, -1e6, 1e6), uniform(random, -1e6, 1e6)};

@@ -111,8 +111,8 @@ TEST_CASE("all corners of a triangle have one pair of materials, and only pairs 
     const uint32_t around = static_cast<uint32_t>(12 + random() % 40),
                    rings = static_cast<uint32_t>(10 + random() % 20);
     Tube tube(1000.0 + static_cast<double>(random() % 9000), 5000, around, rings);
-    // The tube has two materials, one above the other, and a ring between with both; the lowest rings belong to no
-    // shape.
+    // The tube has one material below the ring `border`, another above it, and both in this ring. The two lowest rings
+    // belong to no shape.
     const size_t border = 5 + random() % (rings - 8);
     for (size_t i = 0; i < 2 * size_t{around}; ++i) tube.labels[i] = 0;
     const size_t plain = unwrap(tube.input(), std::pmr::get_default_resource()).wedges.size();

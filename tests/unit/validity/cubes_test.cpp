@@ -12,7 +12,7 @@ using namespace sgm::test;
 namespace {
 
 constexpr double kFarthestOff = 0.05;  // in cells: maximum distance between the two surfaces
-constexpr double kLookedFor = 0.01;    // in cells: accuracy with which the largest distance is computed
+constexpr double kLookedFor = 0.01;    // in cells: error bound of the computed maximum distance
 
 using Axes = std::array<measure::Point, 3>;
 
@@ -105,8 +105,9 @@ TEST_CASE("cubes at any angle deviate by a twentieth of a cell", "[validity][cub
 }
 
 TEST_CASE("wedges whose edges touch samples are valid", "[validity][cubes][sharp][costly]") {
-  // A sample that touches an edge often makes a tiny component of its own, 1/256 of a cell wide. The sharp edge must
-  // not enclose this component; an earlier version did so for the first two seeds.
+  // A sample that touches the edge of a wedge often becomes a tiny solid component of its own, 1/256 of a cell wide.
+  // The sharp edge of the wedge must not pass around this component. In an earlier version it did, for the first two
+  // seeds.
   constexpr unsigned kFirst = 241;
   const ReportContext shop;
   for (unsigned seed = kFirst; seed < kFirst + rounds(60); ++seed) {
@@ -114,7 +115,7 @@ TEST_CASE("wedges whose edges touch samples are valid", "[validity][cubes][sharp
     std::mt19937 random(seed);
     const double cell = kSolidCells[seed % 2], sample = std::floor(cell * kUnitsPerMetre) / kUnitsPerMetre;
     const Axes axes = turned(wedge.degrees);
-    // The edge of the wedge runs along y; a sample lies up to three units inside of it.
+    // The edge of the wedge runs along y. The wedge is placed so that a sample lies 0 to 3 units inside of this edge.
     const double within = between(random, 0, 3) / kUnitsPerMetre, half = between(random, 0.5, 2.5);
     measure::Point at = -within * axes[0] + between(random, -2, 2) * axes[1];
     for (int k = 0; k < 3; ++k) at[k] += sample * static_cast<double>(random() % 5);

@@ -1,6 +1,6 @@
 // Tests random sharp solids with CGAL: the surfaces must be closed, manifold and oriented outward, without triangles of
 // zero area and without intersections. tests/judges runs these tests; the environment variable SGM_JUDGE_CGAL names the
-// program that judges.
+// program that checks the surfaces with CGAL.
 
 #include <cstdio>
 #include <cstdlib>
@@ -13,7 +13,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// Number of solids; with both cell sizes, a thousand surfaces in the long run.
+/// Number of random solids. In the long run (SGM_LONG), 500 solids with two cell sizes each give a thousand surfaces.
 unsigned solidsJudged() { return std::getenv("SGM_LONG") != nullptr ? 500 : 20; }
 
 void judgeSolids(bool sharp) {

@@ -52,9 +52,10 @@ struct Faults {
   size_t degenerate = 0;    ///< triangles with two corners at the same position
   size_t without_area = 0;  ///< triangles with three corners on a line
   size_t folded = 0;        ///< pairs of triangles that share an edge and lie on each other
-  size_t cuts = 0;          ///< other pairs of triangles that intersect
+  size_t cuts = 0;          ///< pairs of triangles that intersect, except those counted in `folded`
   size_t nonmanifold = 0;   ///< edges of three or more triangles
-  /// Non-manifold vertices, duplicates, holes, misoriented edges, shells with the wrong orientation.
+  /// Number of all other defects: non-manifold vertices, duplicates, holes, misoriented edges, shells with the wrong
+  /// orientation.
   size_t others = 0;
   bool valid = false;  ///< the verdict of `sgm measure --strict`
 

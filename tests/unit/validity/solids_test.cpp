@@ -79,8 +79,8 @@ Octree randomTree(std::mt19937& random, int32_t finest) {
   return tree;
 }
 
-/// Whether the triangles pierce each other: the ends of an edge of one lie on both sides of the other, and the edge
-/// passes through the other's inside. Triangles that touch or lie on each other do not pierce.
+/// Whether the triangles pierce each other: an edge of one triangle has its ends on both sides of the other triangle,
+/// and passes through the inside of that triangle. Triangles that touch or lie on each other do not pierce.
 bool pierce(std::span<const measure::Point> points, const measure::Triangle& a, const measure::Triangle& b) {
   using measure::orientation;
   const auto goesThrough = [&](const measure::Triangle& edges, const measure::Triangle& wall) {

@@ -38,8 +38,8 @@ TEST_CASE("the ring hands out as many recordings as it has", "[vulkan]") {
     REQUIRE(!third);
     CHECK(third.error().code == Code::limit);
   }
-  // Both recordings were dropped without being submitted, so they are free again. More submissions than there are
-  // recordings reuse them in turn.
+  // Both recordings were dropped without being submitted, so they are free again. There are more submissions here than
+  // recordings, so that recordings are reused in turn.
   uint64_t last = 0;
   for (int i = 0; i < 20; ++i) {
     auto commands = (*ring)->begin();

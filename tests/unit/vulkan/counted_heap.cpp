@@ -24,7 +24,8 @@ constexpr size_t kUsual = alignof(std::max_align_t);
 
 }  // namespace
 
-// Replaces all forms of operator new: otherwise, a leak checker's forms would not match these.
+// Replaces all forms of operator new and delete. For a form that is not replaced, a leak checker would use its own,
+// which does not match these.
 void* operator new(size_t size) { return allocateOrThrow(size, kUsual); }
 void* operator new(size_t size, std::align_val_t alignment) {
   return allocateOrThrow(size, static_cast<size_t>(alignment));

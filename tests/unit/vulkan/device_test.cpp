@@ -1,4 +1,4 @@
-// Tests devices of our own, and an engine's device.
+// Tests Vulkan devices that the library creates itself, and devices that it borrows from an engine.
 
 #include "backend/vulkan/device.h"
 
@@ -10,7 +10,7 @@ using namespace sgm::vulkan;
 
 namespace {
 
-/// Sets an environment variable during its lifetime.
+/// Sets an environment variable for the lifetime of this object.
 struct Environment {
   const char* name;
   Environment(const char* variable, const char* value) : name(variable) { setenv(name, value, 1); }

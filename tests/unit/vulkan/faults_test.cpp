@@ -42,10 +42,10 @@ bool mayBeMadeGood(const std::string& function) {
   const std::set<std::string> functions{"vkCreateBuffer",
                                         "vkAllocateMemory",
                                         "vkBindBufferMemory",
-                                        "vkMapMemory",  // the library tries a smaller block next
+                                        "vkMapMemory",  // if it fails, the library tries a smaller block
                                         "vkWaitSemaphores",
                                         "vkDeviceWaitIdle",  // called only before everything is destroyed
-                                        "vkEnumerateDeviceExtensionProperties"};  // then the memory budget is unknown
+                                        "vkEnumerateDeviceExtensionProperties"};  // on failure, the budget is unknown
   return functions.count(function) != 0;
 }
 

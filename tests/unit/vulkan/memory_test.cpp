@@ -24,8 +24,8 @@ VkPhysicalDeviceMemoryProperties memoryOf(std::vector<VkMemoryPropertyFlags> typ
   return memory;
 }
 
-/// The real resolver. The functions below simulate a driver that allows 1 MiB of each heap, half of which other
-/// programs use.
+/// The loader's real vkGetInstanceProcAddr. The functions below simulate a driver that allows 1 MiB of each heap, half
+/// of which other programs use.
 PFN_vkGetInstanceProcAddr real_resolver = nullptr;
 
 VKAPI_ATTR void VKAPI_CALL scarceMemory(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties2* properties) {
@@ -239,7 +239,8 @@ TEST_CASE("too much memory is refused, and what is there stays", "[vulkan]") {
   REQUIRE(!over);
   CHECK(over.error().code == Code::limit);
   CHECK(over.error().message.find("262144") != std::string::npos);
-  // The cap does not allow another block of the full size, but one of the requested size.
+  // The memory limit leaves no room for another block of the usual size, but enough for a block of just the requested
+  // size.
   auto rest = memory.buffer(MemoryKind::device, 150'000);
   CHECK(rest);
   // Releases an unused block to make room for one of another kind.

@@ -1,5 +1,5 @@
 #pragma once
-// A Vulkan device for tests, a shader that runs on it, and calls that fail on request.
+// Support for tests with Vulkan: a device, a shader that runs on it, and Vulkan calls that can be made to fail.
 
 #include <array>
 #include <cstring>

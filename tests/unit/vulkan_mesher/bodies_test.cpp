@@ -11,8 +11,8 @@ using namespace sgm::test;
 
 namespace {
 
-/// The counts that the shader must compute for each row of one body: numbers of vertices, indices and active cells
-/// before the row, and of active cells in it.
+/// For each row of one body, returns the values that the shader must compute: the numbers of vertices, indices and
+/// active cells before the row, and a mask of the row's active cells.
 std::vector<std::array<uint32_t, 4>> rowsOf(const ChunkSamples& samples, const MeshPart& part) {
   constexpr size_t kSide = kChunkSamples;
   std::vector<std::array<uint32_t, 4>> rows(kSide * kSide);

@@ -230,7 +230,7 @@ LatticeField randomField(std::mt19937_64& random) {
   switch (random() % 6) {
     case 0:
       return [=](Int3 p, int) { return randomQ(pointHash(seed, p), density); };
-    case 1: {  // void or solid, with single samples of the other sign
+    case 1: {  // all samples void, or all solid, except single ones of the other sign
       const int32_t around = seed % 2 != 0 ? 1 : -1;
       return [=](Int3 p, int) {
         const uint64_t hash = pointHash(seed, p);
@@ -241,7 +241,7 @@ LatticeField randomField(std::mt19937_64& random) {
       const int32_t same = seed % 2 != 0 ? kMaxQ : -kMaxQ;
       return [=](Int3, int) { return same; };
     }
-    case 3:  // only the largest and the smallest magnitudes
+    case 3:  // samples have only the largest or the smallest magnitude
       return [=](Int3 p, int) {
         const bool large = pointHash(seed, p) % 2 != 0;
         return smooth(p) < 0 ? (large ? -kMaxQ : -1) : large ? kMaxQ : 0;

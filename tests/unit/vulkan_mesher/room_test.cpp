@@ -41,7 +41,8 @@ TEST_CASE("parts without room are left out whole", "[vulkan_mesher]") {
       CHECK(output.parts[i].first_vertex == batch::kNoRoom);
       CHECK(output.parts[i].first_index == batch::kNoRoom);
       CHECK((output.parts[i].hash[0] | output.parts[i].hash[1]) == 0);
-      // The needed numbers are returned, so that the next try has enough room.
+      // For parts that did not fit, the output contains the numbers that they need, so that the next try has enough
+      // room.
       CHECK(output.parts[i].vertices == parts[i].vertices.size());
       CHECK(output.parts[i].indices == parts[i].indices.size());
     }

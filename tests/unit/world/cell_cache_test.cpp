@@ -72,7 +72,8 @@ TEST_CASE("cells that nobody asks for any more go before the cache is full, down
       REQUIRE(cache.get(keyOf(i), nothing));
       REQUIRE(has(cache, 0));
     }
-    // The cache keeps the last 1,024 cells, or a quarter of its capacity, and the cell that is used all the time.
+    // The cache keeps the cells that were used last (1,024, or a quarter of its capacity if that is more), and the cell
+    // that is used all the time.
     const size_t kept = std::max<size_t>(1025, room / 4);
     CHECK(cache.stats().cells >= kept);
     CHECK(cache.stats().cells <= kept + 2);

@@ -64,7 +64,8 @@ std::string withDetails(const std::string& text, std::mt19937& random) {
 }
 
 bool sameMesh(const ChunkMesh& a, const ChunkMesh& b) {
-  // Signs are omitted if they are proven to be equal; boxes of other sizes may prevent this proof.
+  // Signs are omitted if all are proven to be equal. The two programs may have bounding boxes of different sizes, so
+  // the proof may fail for one of the meshes.
   const bool uniform = a.signs.empty() || b.signs.empty();
   return a.body.hash == b.body.hash && a.solid_samples == b.solid_samples && (uniform || a.signs == b.signs) &&
          a.body.indices == b.body.indices;
@@ -122,7 +123,8 @@ LeftOut compareLevels(unsigned seed, std::string (*rules)(std::mt19937&, unsigne
   const auto backend = *makeBackend({}, *jobs, std::pmr::get_default_resource());
   size_t surfaces = 0;
   LeftOut out;
-  // Coarse levels omit something in few random grammars, so rounds continue until it has happened once.
+  // Only in few random grammars do coarse levels omit any shape. So there are more rounds, at most 1000, until this has
+  // happened once.
   for (unsigned round = 0; round < tries || (reach == 0 && out.by_level == 0 && round < 1000); ++round) {
     const std::string text = rules(random, round);
     const CompileResult compiled = compileGrammar(text, "test.sgm");

@@ -18,7 +18,7 @@ using namespace sgm;
 
 namespace {
 
-// A grammar with nothing but its domain.
+// A layer without shapes: a grammar that adds it after its `domain` statement has no other content.
 const std::string kNothing = "layer none cell 64m reach 1m { start None; }\nrule None { }\n";
 const std::string kEmpty = "sgm 1; units m;\ndomain infinite empty;\n" + kNothing;
 const std::string kSolid = "sgm 1; units m;\ndomain infinite solid;\n" + kNothing;
@@ -132,7 +132,8 @@ TEST_CASE("a brush is solid or void inside, of its material, and nothing far awa
   for (uint32_t seed = 1; seed <= rounds(200); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
-    // Every second seed tests positions far from the origin, where the integer grid is the same.
+    // Every second seed tests positions far from the origin, where positions are equally exact, because they are
+    // integers.
     const int32_t far = seed % 2 ? 0 : 2'000'000'000;
     const IntBox around = IntBox{{far, -far, far}, {far, -far, far}}.grown(3000);
     Brush brush = randomBrush(random, around, 4000);
@@ -202,7 +203,8 @@ TEST_CASE("a smooth brush is the round union with what is there, as wide as it s
   const int32_t k = 800;  // the influence boxes of both brushes contain all tested places
   for (const bool cut : {false, true}) {
     CAPTURE(cut);
-    // Cutting from a large ball and adding a ball are mirror images, so the fields are as well.
+    // Cutting the brush from the ground gives the negated field of adding the brush to the ground's complement. So one
+    // formula gives the expected values of both cases.
     const Brush ground = sphere({0, -20'000, 0}, 20'000, false), brush = sphere({0, 600, 0}, 1000, cut, k);
     EditLog log({1}), below({1});
     REQUIRE(below.add(ground));

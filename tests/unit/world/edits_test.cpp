@@ -38,7 +38,7 @@ std::vector<std::vector<std::byte>> shown(const EditLog& log, const IntBox& box,
   return bytes;
 }
 
-// The visible brushes by definition: all brushes in order, except those that their latest undo or redo hides.
+// The visible brushes by definition: all brushes in order, except those that were undone and not redone since.
 std::vector<std::vector<std::byte>> expected(const EditLog& log, const IntBox& box, int32_t cell = 1) {
   std::vector<EditOperation> operations(log.operations().begin(), log.operations().end());
   std::sort(operations.begin(), operations.end(),

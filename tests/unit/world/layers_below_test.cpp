@@ -144,8 +144,8 @@ TEST_CASE("a ball is decided wherever the field's slope leaves no doubt, also be
   CAPTURE(seed);
   std::mt19937 random(seed);
   // kSlope: the largest slope of the displaced field. kPieces: 1 plus twice the diagonal of the proof's smallest
-  // pieces, in radii of the ball: their edge is 1/32 of the radius. One diagonal is for the pieces, the other for the
-  // bounds.
+  // pieces, in radii of the ball. The edge of these pieces is 1/32 of the radius. One diagonal is for the extent of the
+  // pieces, the other for the error of their bounds.
   constexpr double kSlope = 1 + 3.7501 * 1.5 / 16, kPieces = 1.12;
   size_t among_crests = 0;
   const WorldField world(settingsOf(hall("1.5m", "query clear of net"), 512, seed), std::pmr::get_default_resource());

@@ -157,7 +157,7 @@ void comparePrograms(const WorldField& world, std::mt19937& random, int boxes, C
     for (int axis = 0; axis < 3 && !isWhole(program.layers[layer]); ++axis)
       if (program.layers[layer].cell[axis] > 0) about[axis] = static_cast<int32_t>(random() % 3) - 1;
     const auto cell = world.cell(layer, about);
-    if (!cell) continue;  // the cell is too large for the limits of derivation
+    if (!cell) continue;  // skip a cell that exceeds the limits of derivation
     const int level = static_cast<int>(random() % 4);
     const IntBox box = boxAbout((*cell)->chunk, 32 * world.cellAt(level), random);
     const auto walked = world.compile(box, level);
@@ -185,7 +185,7 @@ TEST_CASE("the groups of every sample lie within what is proven of its layers") 
         for (const int32_t cell_edge : {kFinestCell, kFinestCell << 4}) {
           CAPTURE(sample.name, layer, at.x, at.y, at.z, cell_edge, settings.seed, settings.parameters.values);
           const auto cell = world.cellFor(layer, at, cell_edge);
-          if (!cell) continue;  // the cell is too large for the limits of derivation
+          if (!cell) continue;  // skip a cell that exceeds the limits of derivation
           const IntBox limit = shapeLimit(*sample.program, layer, at);
           for (const Group& group : (*cell)->chunk.groups) CHECK(limit.contains(group.bounds));
           for (const DeriveNote& note : (*cell)->chunk.notes) {
@@ -223,8 +223,8 @@ TEST_CASE("chunks of random rules and overrides have the program of all cells in
   std::mt19937 random(seed);
   Compared compared;
   size_t unproven = 0;
-  // A quarter of the random grammars does not compile, and few have no proof, so rounds continue until both kinds
-  // occurred often enough.
+  // A quarter of the random grammars does not compile, and few of them have no proof. So rounds continue until grammars
+  // with and without a proof have occurred often enough.
   const auto enough = [&] { return compared.groups > 20 && unproven > 0; };
   for (unsigned round = 0; round < rounds(60) || (!enough() && round < 600); ++round) {
     RandomRules made(random());
@@ -293,7 +293,7 @@ TEST_CASE("cells that cannot show in a chunk are not derived for it") {
   CHECK(world.cacheStats().misses == 1);
 }
 
-// Builds with assertions abort at a shape beyond its proven bound.
+// Without assertions only: builds with assertions abort at a shape beyond its proven bound.
 #if defined(NDEBUG)
 TEST_CASE("a shape that passes what is proven ends there in every chunk, and a note tells") {
   WorldFieldSettings settings = settingsOf(

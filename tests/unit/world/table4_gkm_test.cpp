@@ -136,12 +136,13 @@ TEST_CASE("GK-M: one number morphs halls, storeys and clouds, and nothing else",
   const unsigned seed = testSeed();
   CAPTURE(seed);
   const WorldField cubes = worldOf(seed, "round", 0), balls = worldOf(seed, "round", 1);
-  // The upper edge of a storey, between two ledges: a box has this edge, a rounded box does not.
+  // Samples a place at the upper edge of a storey, between two ledges. It is solid if storeys are boxes; if they are
+  // rounded boxes, it is void.
   size_t edges_kept = 0, edges_gone = 0, storeys = 0;
   const auto found = cubes.instances(ruleNamed(*cubes.settings().program, "Tower"), kPatch, 1000);
   REQUIRE(found);
   for (const RuleInstance& tower : *found) {
-    // This place lies in the narrowest towers, too, which are 9 m wide.
+    // This place also lies inside the narrowest towers, which are 9 m wide.
     const Int3 corner = moved(tower.origin, 4.4, 7.5 + 1.1, 4.4);
     ++storeys;
     edges_kept += solidAt(cubes, corner);

@@ -71,7 +71,8 @@ std::vector<Int3> topsOf(const WorldField& world, std::vector<Int3> places) {
   return places;
 }
 
-/// For each place, the slope of the field along an axis; 1 is the slope of a distance.
+/// For each place, the slope of the field along an axis. A distance field has the slope 1 in the direction of its
+/// gradient.
 std::vector<double> slopesAlong(const WorldField& world, const std::vector<Int3>& places, int axis) {
   constexpr int32_t kStep = 24;
   std::vector<Int3> at = places;

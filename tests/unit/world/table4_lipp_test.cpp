@@ -30,7 +30,7 @@ struct Palace {
   double storeyAt(double index) const { return -0.5 * height() + kGroundFloor + (index + 0.5) * storey(); }
 };
 
-/// The base grammar with random changes of parts that are not edited.
+/// Changes the base grammar at random, but only parts of it that the edits do not address.
 std::string editedElsewhere(std::string text, std::mt19937& random) {
   const auto chance = [&] { return random() % 2 == 0; };
   if (chance()) text = replaced(text, "rule Pier {", "rule Chimney { box(1m, 3m, 1m); }\nrule Pier {");
@@ -73,7 +73,7 @@ bool isSolid(const WorldField& world, double x, double y, double z) {
   return q < 0;
 }
 
-/// The grammar's text without the edits, which follow its rules.
+/// Returns the grammar's text up to the edits, which are at its end.
 std::string lippWithoutEdits(const std::string& text) { return text.substr(0, text.find("// The gate:")); }
 
 }  // namespace

@@ -60,8 +60,9 @@ TEST_CASE("Bouthors: blobs stand upon blobs, each level on the surface of the on
   REQUIRE(heaps);
   std::map<std::string, Int3> places;
   for (const RuleInstance& heap : *heaps) places[heap.path] = heap.origin;
-  std::map<std::string, std::vector<double>> away;  // by path of a heap: distances to the heaps on it
-  std::vector<std::string> first;                   // path of the first heap of each cloud
+  // key: path of a heap; value: its distances to the heaps that stand on it
+  std::map<std::string, std::vector<double>> away;
+  std::vector<std::string> first;  // path of the first heap of each cloud
   for (const auto& [path, place] : places) {
     const std::string below = path.substr(0, path.rfind('/'));
     const auto parent = places.find(below);
@@ -83,8 +84,8 @@ TEST_CASE("Bouthors: blobs stand upon blobs, each level on the surface of the on
     CHECK(share > 0.35 - 1e-3);
     CHECK(share < 0.6 + 1e-3);
   }
-  // A tall cloud has three levels of heaps, each on heaps of the level below; the small clouds at its foot have two. Of
-  // neighbouring clouds, the box may contain only the first heap.
+  // A tall cloud has three levels of heaps; each heap stands on a heap of the level below. The small clouds at the foot
+  // of a tall cloud have two levels. Of neighbouring clouds, the box may contain no more than the first heap.
   size_t grown = 0, tall = 0;
   for (const std::string& path : first) {
     if (away.count(path) == 0) continue;
@@ -147,7 +148,8 @@ Cut cutOf(double cover, double octaves, uint64_t seed) {
   REQUIRE(settings.parameters.set(*settings.program, "cover", cover));
   REQUIRE(settings.parameters.set(*settings.program, "octaves", octaves));
   const WorldField world(std::move(settings), std::pmr::get_default_resource());
-  // There are enough patches to distinguish the cover from chance; each is evaluated with its own program.
+  // The number of patches is large enough that random differences in the clouds' cover average out. Each patch is
+  // evaluated with its own program.
   constexpr int32_t kPatches = 20, kEdge = 400 * 1024, kStep = 8 * 1024, kLines = 4, kAlong = kEdge / kStep;
   std::vector<int32_t> x(kAlong), y(kAlong, 900 * 1024), z(kAlong), q(kAlong);
   EvalScratch scratch;

@@ -50,7 +50,8 @@ class Voxels {
     return static_cast<double>(std::count(rock_.begin(), rock_.end(), 1)) / static_cast<double>(rock_.size());
   }
 
-  /// Two shares: of voxels that differ from all six neighbours, and of neighbouring pairs whose voxels differ.
+  /// Two shares: of the voxels that differ from all six neighbours, and of the pairs of neighbours that differ from
+  /// each other.
   std::array<double, 2> roughness() const {
     size_t alone = 0, apart = 0, all = 0;
     for (int z = 1; z + 1 < edge_; ++z)
@@ -177,7 +178,7 @@ TEST_CASE("Voxel: the automaton does what its controls say", "[table4]") {
     CHECK(share < before);
     before = share;
   }
-  // If the automaton runs no rounds, voxels are random: one in 64 has only neighbours of the other kind.
+  // If the automaton runs no rounds, voxels are random, so one voxel in 64 differs from all six neighbours.
   const auto chance = voxels({{"rounds", 0}}).roughness();
   CHECK(std::abs(chance[0] - 1.0 / 64) < 0.004);
   CHECK(std::abs(chance[1] - 0.5) < 0.02);
@@ -277,7 +278,8 @@ TEST_CASE("Voxel: in a layer without height the automaton is that of the paper, 
   size_t rock = 0;
   for (int z = 0; z < 48; ++z)
     for (int x = 0; x < 48; ++x) {
-      // The walls extend from y = 0 to 3 m, and index 0 is at y = -8 m.
+      // The walls extend from y = 0 to y = 3 m, and index 0 lies at y = -8 m. So indices 9 and 10 lie at the height of
+      // the walls, 7 below and 12 above.
       const bool wall = map.rock({x, 9, z});
       CHECK(wall == map.rock({x, 10, z}));
       CHECK_FALSE(map.rock({x, 7, z}));

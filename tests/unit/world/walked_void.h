@@ -12,8 +12,8 @@ namespace sgm {
 /// is solid.
 class WalkedVoid {
  public:
-  /// Floods from the box's lowest corner, which must lie outside of the examined places. size, walker: numbers of
-  /// samples along each axis.
+  /// Lets the walker start at the box's lowest corner, which must lie outside of the places under test, and floods the
+  /// void from there. size, walker: numbers of samples along each axis.
   WalkedVoid(const WorldField& world, Int3 low, Int3 size, int32_t step, Int3 walker)
       : low_(low), size_(size), step_(step), walker_(walker) {
     closed_ = solidIn(world);
@@ -23,7 +23,7 @@ class WalkedVoid {
     flood();
   }
 
-  /// Whether the middle of a walker that comes from outside can reach a place, to half a sample.
+  /// True if a walker that comes from outside can reach a place with its middle; exact to half a sample.
   bool reaches(Int3 p) const { return walked_[firstOf(p)]; }
   /// Whether a walker fits at a place, even if it cannot reach the place.
   bool fits(Int3 p) const { return !closed_[firstOf(p)]; }
@@ -58,7 +58,8 @@ class WalkedVoid {
     return solid;
   }
 
-  /// For each sample, whether it or one of the `wide` - 1 samples after it is closed or lies outside the box.
+  /// For each sample: true if the sample itself, or one of the next `wide` - 1 samples along the axis, is closed or
+  /// lies outside the box.
   static std::vector<bool> widened(const std::vector<bool>& closed, int32_t stride, int32_t count, int32_t wide) {
     std::vector<bool> out(closed.size());
     for (int32_t i = 0; i < static_cast<int32_t>(closed.size()); ++i) {

@@ -35,7 +35,8 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text.replace(at, from.size(), to);
 }
 
-/// The cave without its drips, whose many small cells would only make the tests slow.
+/// The text of the cave without its stalactites (the layer `drip`), because their many small grammar cells would make
+/// the tests slow.
 inline std::string caveText() {
   return replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
 }
