@@ -7,8 +7,8 @@ namespace sgm::cuda {
 
 namespace {
 
-/// Appends a copy of a lattice op's parameters, followed by its smallest and its largest sample, from which a kernel
-/// computes bounds of the op's value.
+/// Appends to `params` a copy of a lattice op's parameters, then the lattice's smallest and largest sample. From these
+/// two, a kernel computes bounds of the op's value.
 uint32_t appendLattice(const uint32_t* p, uint32_t first_param, std::pmr::vector<uint32_t>& params) {
   const size_t points = size_t{p[5]} * p[6] * p[7], at = params.size();
   params.insert(params.end(), p, p + 10 + points);
@@ -46,7 +46,8 @@ class Planner {
     plan.marks = plan.bounds = 0;
   }
 
-  /// Adds the job to the plan. Returns false and changes nothing if the job would exceed the limit on scratch memory.
+  /// Adds the job to the plan. Returns false and changes nothing if the plan would then need more scratch memory than
+  /// the limit; the plan's first chunk is always added.
   bool add(const ChunkJob& job, uint32_t number) {
     const uint32_t seams = job.seams == 0 ? 0 : static_cast<uint32_t>(std::popcount(unsigned{job.seams} & 63u));
     if (isUniform(job, seams)) {
@@ -68,8 +69,9 @@ class Planner {
  private:
   static bool isUniform(const ChunkJob& job, uint32_t seams) {
     if (!job.field->groups.empty()) return false;
-    // Both fields are constant. If their signs differ, the surface passes through the seam between the two levels of
-    // detail.
+    // Here the chunk's own field is constant. If no seams are requested, that suffices. Otherwise the coarser field
+    // must be constant too, with the same sign: if it is not, the surface passes through the seam between the two
+    // levels of detail.
     return seams == 0 || (job.coarse->groups.empty() && (job.coarse->initial < 0) == (job.field->initial < 0));
   }
 

@@ -14,8 +14,9 @@ namespace sgm::cuda {
 /// The maximum number of chunks in one batch.
 inline constexpr uint32_t kMaxChunks = 256;
 
-/// Memory limits. vertices, indices: average output per chunk for which a batch has memory. scratch_bytes: limit on a
-/// batch's scratch memory and parameters, which only a batch of a single chunk may exceed.
+/// Memory limits of a batch. vertices, indices: number of output vertices and of indices per chunk, on average, for
+/// which memory is reserved. scratch_bytes: limit on a batch's scratch memory and parameters; only a batch of a single
+/// chunk may exceed it.
 struct Room {
   uint32_t vertices = 6144;
   uint32_t indices = 36864;
@@ -23,7 +24,8 @@ struct Room {
   uint64_t pool_bytes = uint64_t{128} << 20;  ///< the share of scratch_bytes that holds pruned programs
 };
 
-/// The arrays of one batch. A plan is reused for further batches, so that its arrays soon need no allocation.
+/// The arrays of one batch. The same object is reused for later batches: its arrays keep their memory, so they soon
+/// need no more allocations.
 struct Plan {
   explicit Plan(std::pmr::memory_resource* memory)
       : instrs(memory),
@@ -50,13 +52,13 @@ struct Plan {
   std::pmr::vector<Chunk> chunks;
   std::pmr::vector<Seam> seams;
   std::pmr::vector<PruneJob> jobs;
-  std::pmr::vector<Parts> chunks_of;   ///< parallel to `chunks`
+  std::pmr::vector<Parts> chunks_of;   ///< one entry for each element of `chunks`, in the same order
   std::pmr::vector<uint32_t> uniform;  ///< indices of jobs whose field has the same sign everywhere: they have no
                                        ///< surface, so the GPU skips them
   uint32_t part_count = 0;
   bool meshes = false, sums = false;  ///< whether any job requests its mesh; whether any job requests only sums
-  /// total sizes of the scratch arrays `marks` (an entry for each pair of instruction and box) and `bounds` (group and
-  /// box)
+  /// numbers of entries of two scratch arrays: `marks` has an entry for each instruction and box, `bounds` for each
+  /// instruction group and box
   uint64_t marks = 0, bounds = 0;
 };
 
@@ -67,8 +69,8 @@ struct PoolSize {
 };
 PoolSize poolOf(uint64_t marks, uint64_t bounds, const Room& room);
 
-/// Plans a batch from the first jobs of the list. Returns how many jobs were planned, at least one. Throws
-/// std::bad_alloc.
+/// Fills the plan with jobs from the beginning of the list, until the limits are reached. Returns how many jobs were
+/// planned, at least one. Throws std::bad_alloc.
 size_t planBatch(std::span<const ChunkJob> jobs, const Room& room, Plan& plan);
 
 }  // namespace sgm::cuda

@@ -19,7 +19,9 @@ struct Slot final : DeviceSlot {
   explicit Slot(std::pmr::memory_resource* resource) : plan(resource) {}
   Plan plan;
   BatchMemory memory;
-  Stream* awaited = nullptr;          ///< the stream to wait for: memory.stream, or memory.reading for later copies
+  /// the stream that must become idle before this slot's work is complete: memory.stream for a batch, memory.reading
+  /// for copies that are made later
+  Stream* awaited = nullptr;
   std::unique_ptr<Placement> placed;  ///< the memory on the rendering device to which this slot's copies write
 };
 
@@ -189,7 +191,8 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     try {
       warn_("the meshes of CUDA cannot be moved to the drawing device: " + why.message);
     } catch (const std::bad_alloc&) {
-      // There is no memory for the message, so do not warn. The missing device parts still show the failure.
+      // There is no memory for the message, so do not warn. The failure still shows: the meshes have no parts on the
+      // rendering device.
     }
   }
 
@@ -199,7 +202,8 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
   std::pmr::memory_resource* const memory_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<Mesher> mesher_;
-  // The stores for meshes that stay on a device; at most one of the two is set.
+  // The storage of meshes that stay on a device: placed_ copies them to the rendering device, kept_ keeps them in the
+  // engine's CUDA context. At most one of the two is set.
   std::unique_ptr<PlacedMeshes> placed_;
   std::unique_ptr<KeptMeshes> kept_;
   IdleSlots slots_;

@@ -14,8 +14,8 @@
 namespace sgm {
 
 struct CudaBackendOptions {
-  /// Opens the device. Called again after the device was lost; an error then means that the CPU does all further work.
-  /// Called by one thread at a time.
+  /// Opens the device. It is called again after the device was lost; if that call fails, the CPU meshes all further
+  /// chunks. It is called by one thread at a time.
   std::function<Result<std::unique_ptr<cuda::Device>>()> open;
   /// same as BackendRequest::warn; also called if meshes cannot be moved to `store`
   std::function<void(const std::string&)> warn = nullptr;
@@ -23,8 +23,8 @@ struct CudaBackendOptions {
   /// where meshes stay after meshing; null: in the memory of the engine's CUDA context, if there is one, otherwise only
   /// on the host
   std::shared_ptr<MeshStore> store = nullptr;
-  uint64_t resident_cap = UINT64_MAX;  ///< in the engine's CUDA context: limit in bytes for meshes that stay on the
-                                       ///< device
+  uint64_t resident_cap = UINT64_MAX;  ///< limit in bytes for meshes that stay on the device; used only in the engine's
+                                       ///< CUDA context
 };
 
 /// Creates the backend. Errors if the device cannot be opened: those of options.open and cuda::Mesher::create.

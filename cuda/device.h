@@ -37,7 +37,7 @@ struct DeviceInfo {
   uint64_t memory = 0;      ///< size of the device's memory in bytes
   int clock = 0;            ///< maximum clock of the multiprocessors in kHz
   uint32_t processors = 1;  ///< number of streaming multiprocessors
-  int memory_pools = 0;     ///< 1: the device supports stream-ordered allocation
+  int memory_pools = 0;     ///< 1: the device supports stream-ordered allocation; 0: it does not
   DeviceId id{};
   std::string problem;  ///< the reason why the driver could not describe the device; empty if it could
 };
@@ -66,8 +66,8 @@ class Stream {
   virtual Result<void> clear(void* device, size_t bytes) = 0;
   /// Enqueues a kernel. blocks: number of thread blocks, at least one.
   virtual Result<void> launch(Kernel kernel, uint32_t blocks, const Batch& batch) = 0;
-  /// Marks the end of the work so far. ended() and wait() refer to this mark until more work is added; in an engine's
-  /// stream, they thus do not wait for the engine's own later work.
+  /// Marks the end of the work that has been enqueued so far; ended() and wait() refer to this mark. In the engine's
+  /// stream, they therefore do not wait for work that the engine enqueues after the mark.
   virtual Result<void> mark() = 0;
   /// Returns true if the marked work has ended. Does not block.
   virtual Result<bool> ended() = 0;
@@ -116,8 +116,8 @@ class Memory {
   Result<void> grow(Stream& stream, MemoryKind kind, size_t bytes) {
     if (bytes <= bytes_) return {};
     reset();
-    // Allocate a margin, because the next batch may be slightly larger. Allocating pinned memory blocks the whole
-    // device, so its size is rounded up to a power of two, which makes growth rare.
+    // Allocate more than requested, because the next batch may be slightly larger. Allocation of pinned memory blocks
+    // the whole device; rounding its size up to a power of two makes such growth rare.
     bytes = kind == MemoryKind::pinned ? std::bit_ceil(bytes) : bytes + bytes / 4;
     Result<void*> made = stream.allocate(kind, bytes);
     if (!made) return made.error();

@@ -31,7 +31,7 @@ struct CuPoolProperties {
   int allocation_type = 1;  ///< CU_MEM_ALLOCATION_TYPE_PINNED, the only type of pools
   int handle_types = 0;
   int location_type = 1;  ///< CU_MEM_LOCATION_TYPE_DEVICE: the memory is on a device
-  int location = 0;       ///< number of the device on which the memory is
+  int location = 0;       ///< number of the device that has the memory
   void* security = nullptr;
   size_t max_bytes = 0;  ///< maximum size of the pool in bytes; 0: the system chooses
   unsigned char reserved[56] = {};

@@ -16,8 +16,8 @@ Error errorOf(const DriverTable& driver, CuResult result, const std::string& wha
     case kCuNoBinary:
       return {Code::unsupported, "the CUDA driver is too old for this build, update it: " + message};
     default:
-      // All other results count as a loss of the device: after such a failure the context stays unusable, and only a
-      // new context helps.
+      // Any other failure counts as a loss of the device: after it the context stays unusable, and only a new context
+      // helps.
       return {Code::device_lost, message};
   }
 }

@@ -25,7 +25,7 @@ class Current {
   }
   Current(const Current&) = delete;
   Current& operator=(const Current&) = delete;
-  /// False if the context could not be made current. The caller must then call no driver function, which would act on
+  /// False if the context could not be made current. The caller must then not call driver functions: they would act on
   /// another context.
   explicit operator bool() const { return pushed_; }
   static Error refused() { return {Code::device_lost, "the CUDA context can no longer be used"}; }
@@ -44,8 +44,8 @@ struct Opened {
   bool borrowed = false;      ///< true if the context belongs to the engine
   mutable std::atomic<bool> lost{false};
   CuModule module = nullptr;
-  /// The library's own memory pool. The device's default pool is not suitable, since the engine also uses it, and it is
-  /// not freed when a context is lost.
+  /// The library's own memory pool. The device's default pool is not used: the engine also allocates from that pool,
+  /// and a loss of the context does not free it.
   CuPool pool = nullptr;
   std::array<CuFunction, static_cast<size_t>(Kernel::count)> functions{};
 

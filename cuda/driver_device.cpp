@@ -9,8 +9,8 @@ namespace sgm::cuda {
 
 namespace {
 
-constexpr uint64_t kPoolKeeps = uint64_t{256} << 20;  // number of free bytes that the memory pool keeps, about the
-                                                      // memory of some batches
+constexpr uint64_t kPoolKeeps = uint64_t{256} << 20;  // number of free bytes that the memory pool keeps: about the
+                                                      // memory of a few batches
 
 class DriverDevice final : public Device {
  public:
@@ -103,8 +103,8 @@ Error noKernels() {
   return {Code::unsupported, "this build has no CUDA kernels: build it with nvcc installed and SGM_CUDA=ON"};
 }
 
-/// Converts an error that occurs while a device is opened. device_lost becomes unsupported: no open device was lost;
-/// for example, another process may use the device exclusively.
+/// Converts an error that occurs while a device is opened. device_lost becomes unsupported, because there is no open
+/// device yet that could be lost. For example, another process may use the device exclusively.
 Error unusable(const Error& error) {
   return {error.code == Code::device_lost ? Code::unsupported : error.code, error.message};
 }

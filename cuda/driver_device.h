@@ -36,8 +36,8 @@ struct BorrowedContext {
   uint64_t mesh_bytes = UINT64_MAX;  ///< limit in bytes for meshes that stay on the device
 };
 
-/// Opens a device in the engine's CUDA context, without taking ownership. Each call of the device restores the thread's
-/// current context. Errors: those of openDevice().
+/// Opens a device in the engine's CUDA context, without taking ownership. After each call of the device, the thread's
+/// current CUDA context is the same as before. Errors: those of openDevice().
 Result<std::unique_ptr<Device>> borrowDevice(const DriverTable& driver, std::span<const std::byte> image,
                                              const BorrowedContext& external);
 

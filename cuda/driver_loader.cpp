@@ -4,7 +4,8 @@
 #include "cuda/driver_device.h"
 
 #ifdef SGM_CUDA_IMAGE
-// Embed the file by .incbin: a C array as source would be several times its size and slow to compile.
+// The assembler embeds the file (.incbin). As a C array, it would take several times its size in source code, and
+// compile slowly.
 asm(".pushsection .rodata, \"a\", @progbits\n"
     ".balign 64\n"
     ".hidden sgm_cuda_image\n"

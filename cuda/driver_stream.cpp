@@ -139,14 +139,15 @@ class DriverStream final : public Stream {
     device_.lost.store(true);
     return Current::refused();
   }
-  /// Returns device_lost: if waiting fails, work may still be writing, so the content of the device's memory is
-  /// unreliable.
+  /// Returns the error device_lost and marks the device as lost. Used when waiting fails: unfinished work may then
+  /// still be writing, so the content of the device's memory is unreliable.
   Error unsure(const Error& why) const {
     device_.lost.store(true);
     return {Code::device_lost, why.message};
   }
 
-  /// Same as wait(), but throws nothing: allocating an error's message could throw.
+  /// Same as wait(), but never throws. wait() may throw while it allocates an error's message; the device then counts
+  /// as lost.
   bool waited() noexcept {
     try {
       return static_cast<bool>(wait());
@@ -160,7 +161,8 @@ class DriverStream final : public Stream {
   const DriverTable& driver_;
   CuStream stream_ = nullptr;
   CuEvent event_ = nullptr;
-  bool marked_ = true;  ///< true if event_ was recorded after all work so far, or if there was no work
+  bool marked_ = true;  ///< true if event_ was recorded after all work in the stream so far, or if the stream has had
+                        ///< no work
 };
 
 class DriverImport final : public ImportedMemory {
@@ -201,8 +203,8 @@ class DriverImport final : public ImportedMemory {
   }
 
  private:
-  /// Converts the error of a failed import. device_lost becomes unsupported, because such a failure does not affect the
-  /// context.
+  /// Converts the error of a failed import. If its code is device_lost, changes the code to unsupported, because a
+  /// failed import does not affect the context.
   Error refused(CuResult result) const {
     Error error = errorOf(device_->driver, result, "importing the drawing device's memory on " + device_->info.name);
     if (error.code == Code::device_lost) error.code = Code::unsupported;

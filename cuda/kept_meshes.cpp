@@ -15,8 +15,8 @@ size_t bytesOf(const PartSource& source) {
   return aligned(source.vertex_count * sizeof(Vertex)) + aligned(source.index_count * sizeof(uint32_t));
 }
 
-/// On failure, waits in the destructor for copies in the stream: the parts that they write will be freed in another
-/// stream, which is not ordered after them.
+/// Unless the parts are kept, the destructor waits for the copies in the stream. Otherwise the copies might write to
+/// memory that is already free: another stream frees the parts, and does not wait for this stream.
 class WaitUnlessKept {
  public:
   explicit WaitUnlessKept(Stream& stream) : stream_(stream) {}
@@ -25,7 +25,8 @@ class WaitUnlessKept {
     try {
       static_cast<void>(stream_.wait());
     } catch (const std::bad_alloc&) {
-      // wait() threw while it made an error's message: either the stream's work has ended, or the device is lost
+      // wait() can throw only while it creates the message of an error; by then, the stream's work has ended, or the
+      // device is lost
     }
   }
   WaitUnlessKept(const WaitUnlessKept&) = delete;

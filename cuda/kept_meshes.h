@@ -63,7 +63,7 @@ class KeptMeshes {
   /// Enqueues copies of mesh parts in the stream: from device memory or, if `from_host`, from pinned memory. Returns
   /// one DeviceParts for each chunk. A part is null if it has no source; all parts of a chunk are null if there is too
   /// little memory for it. The parts are complete when the stream's work has ended, and must not be destroyed before.
-  /// owner is kept alive by the parts and must own this object. Errors: those of Stream::copy. Throws std::bad_alloc.
+  /// owner: must own this object; the parts keep it alive. Errors: those of Stream::copy. Throws std::bad_alloc.
   Result<std::vector<DeviceParts>> keep(const std::shared_ptr<const void>& owner, Stream& stream,
                                         std::span<const PartSources> chunks, bool from_host = false);
   /// Uploads mesh parts from the host as Backend::upload does; blocks until they are on the device.

@@ -11,12 +11,12 @@ namespace sgm::cuda {
 
 namespace {
 
-/// Number of blocks per multiprocessor for kernels whose amount of work only the device knows: enough to use the whole
-/// multiprocessor.
+/// Number of blocks per multiprocessor for kernels whose amount of work is known only on the device. It is large enough
+/// to keep all multiprocessors busy.
 constexpr uint32_t kBlocksAProcessor = 32;
 
-/// Lays out arrays one after the other in one memory block. A first pass without a block computes the total size, a
-/// second pass the addresses.
+/// Places arrays one after the other in one memory block. A first pass, without a block, computes the total size; a
+/// second pass sets the addresses.
 class Places {
  public:
   explicit Places(std::byte* begin) : begin_(begin) {}
@@ -267,11 +267,11 @@ Result<Mesher::Output> Mesher::read(const Plan& plan, BatchMemory& m) {
                 reinterpret_cast<const uint64_t*>(m.signs_back.data())};
 }
 
-/// Downloads all vertices and indices if those downloaded with the batch were not enough.
+/// Downloads all vertices and indices if the batch has more of them than it downloaded by itself.
 Result<void> Mesher::downloadRest(const Head& head, BatchMemory& m) {
   const uint64_t vertices = uint64_t{head.vertices} * sizeof(Vertex),
                  indices = uint64_t{head.indices} * sizeof(uint32_t);
-  // Expect a quarter more than in this batch, because successive batches are similar.
+  // Successive batches are similar, so the next download gets a quarter more than this batch had.
   usual_vertices_.store(vertices + vertices / 4);
   usual_indices_.store(indices + indices / 4);
   if (vertices <= m.brought_vertices && indices <= m.brought_indices) return {};

@@ -12,10 +12,10 @@ namespace sgm::cuda {
 
 /// The stream and the memory of one batch. It is reused for further batches, and grows if necessary.
 struct BatchMemory {
-  std::unique_ptr<Stream> stream;  ///< must outlive the memory below, which is allocated in it
+  std::unique_ptr<Stream> stream;  ///< the memory below is allocated in this stream, so the stream must outlive it
   Memory staging, input, scratch, result;
   Memory vertices, indices;
-  /// Host memory for downloads. The numbers of vertices and indices are known only on the device, so the batch
+  /// Host memory for downloads. Only the device knows how many vertices and indices a batch has. Therefore the batch
   /// downloads as many as recent batches had; if it has more, they are downloaded after its end.
   Memory result_back, signs_back, vertices_back, indices_back;
   /// numbers of bytes of vertices and of indices that the batch itself downloads
@@ -41,8 +41,8 @@ class Mesher {
   /// batch has ended. Errors: those of Stream; a part of the batch may run even then.
   Result<void> submit(const Plan& plan, BatchMemory& memory);
 
-  // The following functions are the steps of submit(), so that benchmarks can repeat and measure each. Errors: those of
-  // Stream.
+  // The functions below are the steps of submit(). They are public so that benchmarks can repeat and measure each step.
+  // Errors: those of Stream.
 
   /// Uploads the plan's arrays; they stay on the device for any number of runs.
   Result<Batch> load(const Plan& plan, BatchMemory& memory);

@@ -9,15 +9,16 @@ namespace sgm::cuda {
 /// block again.
 struct PlacedMeshes::Import {
   std::mutex mutex;  ///< guards `of` and `memory`
-  /// the owner of the import; set to null when the owner is destroyed, so that a later object at the same address does
-  /// not match
+  /// the owner of the import; null after the owner's destruction, so that a later object at the same address does not
+  /// count as the owner
   const PlacedMeshes* of;
   std::shared_ptr<const ImportedMemory> memory;
 };
 
 namespace {
 
-/// On failure, waits in the destructor for copies in the stream: no other code knows that they write to the placement.
+/// Unless given() is called, the destructor waits for the copies in the stream. They write to the placement, and after
+/// a failure no other code would wait for them.
 class Writing {
  public:
   Writing(Stream& stream, Placement& placement) : stream_(stream), placement_(placement) { placement.writing = true; }
@@ -78,8 +79,8 @@ PlacedMeshes::~PlacedMeshes() {
 }
 
 Result<std::shared_ptr<const ImportedMemory>> PlacedMeshes::import(SharedBlock& block) {
-  // Lock, because after a device loss two objects may import the same block: that of the newly opened device, and that
-  // of the lost device with its last batches.
+  // Lock, because after a loss of the device two PlacedMeshes objects may import the same block at once: the new
+  // device's object, and the lost device's object with its last batches.
   const std::scoped_lock lock(block.importing);
   if (const auto known = std::static_pointer_cast<Import>(block.imported)) {
     const std::scoped_lock of_import(known->mutex);

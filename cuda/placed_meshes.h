@@ -23,7 +23,7 @@ class PlacedMeshes {
   /// (MeshStore::publish). If an error is returned, no copy is running. Errors: those of Stream::copy. Throws
   /// std::bad_alloc.
   Result<std::unique_ptr<Placement>> keep(Stream& stream, std::span<const PartSources> chunks);
-  /// Releases the imported memory although the blocks continue to exist: otherwise it would keep the memory of a lost
+  /// Releases all imports, also those whose blocks continue to exist: such an import would keep the memory of a lost
   /// device alive. Precondition: no placement is still being written.
   ~PlacedMeshes();
   PlacedMeshes(const PlacedMeshes&) = delete;

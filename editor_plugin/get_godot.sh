@@ -76,7 +76,8 @@ for package in "$new"/apt/cache/archives/*.deb; do
 done
 rm -rf "$new/apt"
 
-# The engine is started with its own dynamic loader and libraries, wherever the folder is.
+# The wrapper starts the engine with the dynamic loader and the libraries of the wrapper's own folder. The folder may
+# thus be moved.
 cat >"$new/godot" <<'WRAPPER'
 #!/bin/sh
 here=$(dirname "$(readlink -f "$0")")

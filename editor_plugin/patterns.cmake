@@ -25,7 +25,8 @@ function(take file)
     return()
   endif()
   list(APPEND taken ${file})
-  # Semicolons and brackets have a meaning in CMake's lists: replace them until the end.
+  # Semicolons and brackets have a meaning in CMake's lists. They are therefore replaced by words here, and put back at
+  # the end.
   file(READ ${SHADERS}/${file} source)
   if(source MATCHES "\\\\")
     fail(${file} "\\" "backslashes mean something in CMake's lists and are not translated")
@@ -62,7 +63,8 @@ function(take file)
       string(APPEND text "#if !defined(SGM_PATTERNS_CHOSEN) || defined(SGM_PATTERN_${CMAKE_MATCH_2})\n"
         "#define SGM_HAS_${name}\n#endif\n")
     endif()
-    # Godot's loops have no attribute dont_unroll: a bound that the compiler does not know has the same effect.
+    # Godot's shading language has no attribute dont_unroll for loops. Instead, multiply the loop's bound by
+    # whole_loops: a compiler does not unroll a loop whose bound it does not know.
     string(REGEX REPLACE "@open@@open@dont_unroll@close@@close@ for \\(int ([a-z]) = 0@semicolon@ [a-z] < ([0-9]+)@semicolon@"
       "for (int \\1 = 0@semicolon@ \\1 < \\2 * whole_loops@semicolon@" line "${line}")
     string(REGEX REPLACE "([^i]vec3)\\(([0-9]+), ([0-9]+), ([0-9]+)\\)" "\\1(\\2.0, \\3.0, \\4.0)" line "${line}")

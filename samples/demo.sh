@@ -54,7 +54,7 @@ fi
 [[ -x build/release/bin/sgm ]] || echo "demo: building build/release/bin/sgm, which takes some minutes the first time"
 started=$SECONDS
 : >"$log"
-# The library is built too: it is linked from the same objects, and then both can be installed.
+# The library is built too: it is linked from the same objects as the command, and then both can be installed.
 cmake --build --preset release --target sgm_cli sgm 2>&1 | show_progress || {
   cat "$log" >&2
   die "building failed"

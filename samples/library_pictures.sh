@@ -37,15 +37,15 @@ street.Lawn 28 34
 street.Site 28 30
 '
 
-# Scenes that replace examples which are invisible by themselves, or which are easier to see as a solid cast of their
-# hollow space: NAME | DECLARATIONS | the body of a rule.
+# Scenes that replace the examples of some rules, because these examples are invisible by themselves, or because their
+# hollow space is easier to see as a solid cast. Columns: NAME | DECLARATIONS | the body of a rule.
 scenes='
 cave.Branchwork | | rot(z, 100deg) cave.Branchwork(10, step 5m, r 2.5m);
 karst.sole | | for i in 0..24 { at(karst.sole((0m, 0m, 0m), (70m, -4m, 20m), i/23)) sphere(2.2m); }
 cave.Water | domain finite box(24m, 24m, 24m); | { union { { box(13m, 7m, 10m); mat limestone; } cut { ellipsoid(5m, 3m, 4m); } } meet { ellipsoid(5m, 3m, 4m); at(-10.8m, -10.8m, -10.8m) scale(0.9) cave.Water(11.4m, deep 3m); } cut { at(z 5m) box(14m, 10m, 10m); mat clay; } }
 '
 
-# The material of a part's examples that set no material themselves.
+# Prints the material for a part of the library: it is used for the examples that set no material themselves.
 material_of() {
   case $1 in
     cave | karst | rock | noise) echo limestone ;;
@@ -107,7 +107,8 @@ long_axis() {
   }'
 }
 
-# middle BOUNDS AXIS: prints a box around the part of BOUNDS just behind its middle, as seen from the side of the sun.
+# middle BOUNDS AXIS: prints a box around a slice of BOUNDS across AXIS. The slice begins in the middle of BOUNDS, lies
+# on the side away from the sun, and is 14 % as thick as BOUNDS.
 middle() {
   awk -v b="$1" -v axis="$2" 'BEGIN {
     split(b, c, " ")

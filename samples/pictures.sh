@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws pictures of samples in samples/images again, each with its original view.
+# Redraws the pictures of the samples in samples/images, each with its original view.
 #
 #   samples/pictures.sh SGM [NAME]...    # draws with the command SGM: all pictures, or those named
 set -euo pipefail

@@ -35,7 +35,7 @@ SGM_TEST_PACKAGES=(
 # Packages to emulate AVX-512 if the processor lacks it: tests/scripts/avx512_emulated.sh.
 SGM_EMULATION_PACKAGES=(bochs bochs-term bochsbios vgabios isolinux syslinux-common xorriso busybox-static)
 
-# Prints the entries whose package and command are missing.
+# Prints the package of each entry that is missing: neither its package is installed, nor its command (if any) exists.
 sgm_missing() {
   local entry present
   present=" $(dpkg-query -W -f='${db:Status-Status} ${Package}\n' 2>/dev/null | sed -n 's/^installed //p' | tr '\n' ' ')"

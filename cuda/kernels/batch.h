@@ -42,7 +42,8 @@ struct Seam {
   uint32_t chunk, face, part;
 };
 
-/// A program and the boxes (at most 64) to which it is pruned: the bricks of a chunk, or the face planes of its seams.
+/// A program and the boxes to which it is pruned (at most 64): either the bricks of a chunk, or the face planes of the
+/// chunk's seams.
 struct PruneJob {
   enum Kind : uint32_t { bricks, own_planes, coarse_planes };
   uint32_t kind, chunk, program, first_seam, boxes;
@@ -62,26 +63,29 @@ struct GroupBounds {
   bool met, whole, live;
 };
 
-/// A program pruned to one box. Brick b of chunk c is item 64 c + b. After all bricks follow two items for each seam's
-/// face plane: one with the chunk's own program, one with the program of the next coarser level.
+/// A program pruned to one box. In the array of items, brick b of chunk c has the index 64 c + b. Behind all bricks,
+/// each seam has two items for its face plane: first the chunk's own program, then the program of the next coarser
+/// level.
 struct Item {
   enum State : uint32_t { mixed, solid, empty };
   uint32_t state;
   uint32_t program;
-  /// 0 if the pool was full or the box is not sampled; then the whole program is used, which is valid everywhere
+  /// 0 if the box is not sampled, or if the pool for pruned programs was full; in the latter case the whole program is
+  /// used, which is valid everywhere
   uint32_t pruned;
   uint32_t first_instr, instrs, first_group, groups;  ///< range of the pruned program in the pools, if pruned
   float initial;
   uint32_t initial_label;
 };
 
-/// For one row of samples: the numbers of vertices, indices and active cells in all previous rows of the chunk.
+/// For one row of samples: the totals of vertices, indices and active cells over all previous rows of the chunk.
 struct Row {
   uint32_t vertices, indices, cells;
 };
 
-/// An active cell. place: x + 32 y + 1024 z in the low bits, its marching cubes case in the bits above; first_index:
-/// its first index within the part.
+/// An active cell, that is, a cell that the surface crosses. place: the low 15 bits are x + 32 y + 1024 z; the bits
+/// above are the cell's marching cubes case. first_index: position of the cell's first index, counted from the part's
+/// first index.
 struct Cell {
   uint32_t place, first_index;
 };
@@ -91,14 +95,17 @@ struct Cell {
 struct SeamCensus {
   uint64_t plane[kSide];  ///< the signs of the chunk's samples on the face: bit a of word b belongs to sample (a, b)
   uint32_t fine[kSide], coarse[kCoarseSide], lateral[kCoarseSide];
-  /// numbers of the first vertex on a coarse edge, and of the first vertex on a lateral edge (between the levels)
+  /// number of the first vertex on a coarse edge, and of the first vertex on a lateral edge (an edge between the
+  /// levels)
   uint32_t first_coarse, first_lateral;
-  uint32_t indices[kSeamCells];  ///< for each cell, number a + 16 b: the number of indices of all previous cells
+  uint32_t indices[kSeamCells];  ///< for each cell (its number is a + 16 b): the total of the indices of all previous
+                                 ///< cells
 };
 
 struct Part {
   uint32_t vertices, indices;
-  uint32_t first_vertex, first_index;  ///< offsets of the part in the output; kNone if the output has no room for it
+  uint32_t first_vertex, first_index;  ///< offsets of the part's first vertex and first index in the output arrays;
+                                       ///< kNone if the arrays have no room for the part
   uint32_t hash[2];
 };
 
@@ -110,7 +117,8 @@ struct Sums {
 struct Head {
   uint32_t sampled;                   ///< number of items in the list Batch::sampled
   uint32_t pool_instrs, pool_groups;  ///< number of entries requested from the pools; may exceed their capacity
-  uint32_t vertices, indices;         ///< used size of the output arrays, up to the end of the last part that had room
+  uint32_t vertices, indices;         ///< number of used elements of the output arrays: the end of the last part for
+                                      ///< which they had room
 };
 
 /// The marching cubes tables, for cells of bodies and of seams (mesh/tables.h).
@@ -156,7 +164,8 @@ struct Batch {
   Head* head;   ///< initially zero
   Part* parts;  ///< initially zero
   Sums* sums;   ///< one entry per part, initially zero; null if no chunk requests sums
-  bool meshes;  ///< true if a chunk requests its mesh; if all chunks request only sums, vertices need no attributes
+  bool meshes;  ///< true if any chunk requests its mesh; if false, all chunks request only sums, so vertices need no
+                ///< attributes
   Vertex* vertices;
   uint32_t* indices;
 };

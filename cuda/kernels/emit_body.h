@@ -8,8 +8,8 @@
 
 namespace sgm::cuda {
 
-/// Kernel: writes the vertices of a brick, with attributes from the brick's pruned program. One block per sampled
-/// brick.
+/// Kernel: writes the vertices of a brick (8 x 8 x 8 cells). The program pruned to this brick computes their
+/// attributes. One block of threads per sampled brick.
 struct BodyVertices {
   static constexpr uint32_t kThreads = 96;
   static constexpr uint32_t kBrickRows = (kBrickCells + 1) * (kBrickCells + 1);
@@ -118,7 +118,8 @@ struct ListCells {
   }
 };
 
-/// Kernel: writes triangles, one thread per active cell. kSlices blocks share the active cells of a chunk.
+/// Kernel: writes the triangles of bodies, one thread per active cell. kSlices blocks share the active cells of a
+/// chunk.
 struct BodyTriangles {
   static constexpr uint32_t kThreads = 128;
   static constexpr uint32_t kSlices = 8;
@@ -134,7 +135,7 @@ struct BodyTriangles {
     const uint64_t* signs = b.signs + size_t{kRows} * chunk_number;
     const Row* rows = b.rows + size_t{kRows} * chunk_number;
     const Cell* cells = b.cells + size_t{kCells} * chunk_number;
-    // Entries count all previous rows, so the row after the last row of cells has the chunk's totals.
+    // The counts of a row exclude the row itself, so the entry after the last row of cells has the chunk's totals.
     const uint32_t active = rows[rowOf(kChunkCells, kChunkCells - 1)].cells;
     block.each([&](uint32_t thread) {
       if (thread < 2) shared.hash[thread] = 0;
@@ -162,7 +163,7 @@ struct BodyTriangles {
       const int n = *loop++;
       LoopPoint points[kLongestCubeLoop];
       for (int i = 0; i < n; ++i) {
-        // Decode the number of a cell's edge: 4 axis + b0 + 2 b1 (mesh/tables.h).
+        // An edge's number within a cell is 4 * axis + b0 + 2 * b1 (mesh/tables.h): split it into these parts.
         const uint32_t edge = loop[i], axis = edge / 4, first = edge & 1, second = edge >> 1 & 1;
         const uint32_t dx = axis == 0 ? 0 : first, dy = axis == 0 ? first : axis == 1 ? 0 : second;
         const int row_y = y + static_cast<int>(dy), row_z = z + static_cast<int>(axis == 2 ? 0 : second);

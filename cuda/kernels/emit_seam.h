@@ -60,14 +60,14 @@ struct SeamVertices {
     });
   }
 
-  /// An edge in the face: (a, b) is its lower end; it runs along v if along_v, otherwise along u.
+  /// An edge in the face's plane. It starts at (a, b), and runs along v if along_v is true, otherwise along u.
   struct Edge {
     uint32_t a, b;
     bool along_v;
   };
 
-  /// Returns edge n among those of a sign plane whose ends have different signs. before: for each row, the number of
-  /// such edges in all previous rows.
+  /// Returns the n-th crossed edge in a plane of sample signs. (An edge is crossed if the signs at its ends differ.)
+  /// before: for each row, the number of crossed edges in all previous rows.
   template <class Word>
   SGM_KERNEL static Edge edgeOf(const Word* plane, const uint32_t* before, uint32_t side, uint32_t n) {
     const uint32_t row = lastAtMost(before, side, n);

@@ -40,7 +40,8 @@ inline constexpr size_t kEvalBlock = 1;
 
 inline constexpr uint32_t kSamplesTogether = at_point::together::kEvalBlock;
 
-/// Computes the quantised field values at several points. points: all x, all y, all z.
+/// Computes the quantised field values at several points. points: the x coordinates of all points, then the y, then the
+/// z coordinates.
 SGM_KERNEL void sampleField(const ProgramView& program, const int32_t (&points)[3][kSamplesTogether],
                             int32_t (&q)[kSamplesTogether]) {
   using namespace at_point::together;

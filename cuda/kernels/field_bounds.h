@@ -61,7 +61,7 @@ SGM_KERNEL float sumOfSizes(Params P, int first, int last) {
   return sum;
 }
 
-/// Same as sizeSum in field/interval.h, but without the margin for rounding errors, which positionBounds adds.
+/// Same as sizeSum in field/interval.h, but without a margin for rounding errors: positionBounds adds that margin.
 SGM_KERNEL float sizesOf(Op op, Params P) {
   switch (op) {
     case Op::sphere:
@@ -120,7 +120,7 @@ SGM_KERNEL float valueInMiddle(Op op, Params P, const Box3& box) {
     case Op::prism:
       return opPrism(x, y, z, P).v;
     default:
-      return 0;  // bounds of other ops do not use the value at the box's middle
+      return 0;  // for all other ops, the bounds do not depend on the value at the middle of the box
   }
 }
 
@@ -153,8 +153,8 @@ SGM_KERNEL Mark boundRoundCut(Mark a, Mark b, float k) {
 }
 
 SGM_KERNEL Box3 movePlaces(const Box3& from, Mark x, Mark y, Mark z) {
-  // If a warp could move a position beyond the end of the world along an axis, the bounds on that axis become the whole
-  // world.
+  // A warp could move positions in the box beyond the end of the world along some axis. The bounds on that axis then
+  // become the whole world.
   constexpr int kLowest = -2147483647 - 1, kHighest = 2147483647;
   Box3 to{movedTo(from.lo_x, x.lo, -1.0f), movedTo(from.lo_y, y.lo, -1.0f), movedTo(from.lo_z, z.lo, -1.0f),
           movedTo(from.hi_x, x.hi, 1.0f),  movedTo(from.hi_y, y.hi, 1.0f),  movedTo(from.hi_z, z.hi, 1.0f)};

@@ -58,8 +58,8 @@ SGM_KERNEL ChunkGrid gridOf(const Chunk& chunk) {
   return grid;
 }
 
-/// The edges, from the samples of one row to the next sample along each axis, whose ends have different signs: one word
-/// per axis, bit x for the edge that starts at sample x.
+/// The crossed edges (edges whose two ends have different signs) that start at the samples of one row. One word per
+/// axis: bit x belongs to the edge that starts at sample x.
 struct RowEdges {
   uint64_t x, y, z;
   SGM_KERNEL RowEdges(const uint64_t* signs, int row_y, int row_z) {

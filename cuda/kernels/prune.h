@@ -1,6 +1,6 @@
 #pragma once
-// Kernel that finds the boxes of a chunk without surface, and prunes its programs to the other boxes. One block per
-// program, one thread per box.
+// Kernel that finds which boxes of a chunk contain no surface, and prunes the chunk's programs to each of the other
+// boxes. One block per program, one thread per box.
 
 #include "cuda/kernels/batch.h"
 #include "cuda/kernels/block.h"
@@ -9,8 +9,8 @@
 
 namespace sgm::cuda {
 
-/// The column of one box in a table whose rows are instructions or groups. The entries of a row are adjacent in memory,
-/// so that the accesses of neighbouring threads coalesce.
+/// The column of one box in a table: a row belongs to an instruction or a group, a column to a box. The entries of a
+/// row are adjacent in memory, so neighbouring threads (which handle neighbouring boxes) make coalesced accesses.
 template <class Entry>
 struct Column {
   Entry* first;
@@ -37,8 +37,8 @@ struct Prune {
     const Int3 origin{chunk.origin[0], chunk.origin[1], chunk.origin[2]};
     IntBox box{origin, origin};
     if (job.kind == PruneJob::bricks) {
-      // Bound a brick together with one more sample on each side: if the field has one sign there, no edge that leaves
-      // the brick has a vertex.
+      // Bound the field over the brick and one more sample on each side: if the field has one sign there, no edge that
+      // starts or ends in the brick has a vertex.
       const Brick brick(number);
       for (int axis = 0; axis < 3; ++axis) {
         const int first = brick.first(axis) - 1, last = brick.last(axis) + 1;
@@ -131,8 +131,9 @@ struct Prune {
     }
   }
 
-  /// True if the box must be sampled. If only seams are requested, only bricks at the faces of these seams are sampled.
-  /// Face planes of the chunk's own field are not sampled: their pruned programs only serve vertex attributes.
+  /// True if the box must be sampled. If only seams are requested, only the bricks at the faces of these seams are
+  /// sampled. Of the planes of a seam, only those with the coarser level's field are sampled: the planes with the
+  /// chunk's own field only serve vertex attributes.
   SGM_KERNEL static bool isSampled(const Batch& b, const PruneJob& job, uint32_t number) {
     if (job.kind != PruneJob::bricks) return job.kind == PruneJob::coarse_planes;
     const uint32_t faces = b.chunks[job.chunk].faces;

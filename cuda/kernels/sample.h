@@ -1,5 +1,6 @@
 #pragma once
-// Kernel that computes the samples and signs of all items that pruning listed as not uniform. One block per item.
+// Kernel that samples the field: it computes the values and their signs in every item of the list that the pruning
+// kernel has made (Batch::sampled). One block per item.
 
 #include "cuda/kernels/field.h"
 #include "cuda/kernels/grid.h"
@@ -50,7 +51,7 @@ struct Sample {
       const Chunk& chunk = b.chunks[chunk_number];
       origin = gridOf(chunk).origin;
       if (plane) {
-        // The positions are those of coarseFacePoint in mesh/seam.h.
+        // The positions of the samples are the same as in coarseFacePoint (mesh/seam.h).
         const auto face = static_cast<Face>(b.seams[seam_number].face);
         const int axis = faceAxis(face);
         origin[axis] += faceIsHigh(face) ? kChunkCells * chunk.cell : 0;
@@ -100,8 +101,8 @@ struct Sample {
     }
   };
 
-  /// Evaluates kSamplesTogether samples from number i on. Beyond the last sample, evaluates the last one again and
-  /// discards it.
+  /// Evaluates kSamplesTogether samples, the first of which has number i. If there are fewer left, the last sample is
+  /// repeated, and the repetitions are discarded.
   SGM_KERNEL static void take(const ProgramView& view, const Lattice& lattice, uint32_t i) {
     uint32_t at[kSamplesTogether][3];
     int32_t points[3][kSamplesTogether], q[kSamplesTogether];

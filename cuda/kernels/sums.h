@@ -7,7 +7,7 @@
 
 namespace sgm::cuda {
 
-/// kSlices blocks share the triangles of a part.
+/// Kernel: adds up the sums of each part. kSlices blocks share the triangles of a part.
 struct SumTriangles {
   static constexpr uint32_t kThreads = 128;
   static constexpr uint32_t kSlices = 4;

@@ -16,8 +16,9 @@ class Anchors {
     std::vector<sgm_anchor> come;
     std::vector<uint64_t> gone;  // keys of the anchors that are no longer in drawn chunks
   };
-  /// The anchors that appear and disappear with a frame's changes. If a chunk is replaced by finer or coarser chunks,
-  /// its anchors pass to them and neither appear nor disappear.
+  /// Applies one frame's changes of the drawn chunks. Returns the anchors that appear and the anchors that disappear.
+  /// If a chunk is replaced by finer or coarser chunks, its anchors lie in the new chunks; such anchors are not
+  /// returned.
   News follow(const std::vector<Picture::Change>& changes);
   std::vector<uint64_t> clear();  // forgets all anchors, and returns their keys
 

@@ -11,7 +11,8 @@ namespace sgm_godot {
 void yieldToEngine() {
 #if defined(__linux__)
   constexpr int kNiceness = 5;
-  static_cast<void>(setpriority(PRIO_PROCESS, 0, kNiceness));  // on Linux, the id 0 stands for the calling thread
+  static_cast<void>(setpriority(PRIO_PROCESS, 0, kNiceness));  // who = 0 stands for the calling thread: on Linux, each
+                                                               // thread has its own priority
 #endif
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The engine builds a search tree over a shape's triangles in a single call; for this many it takes well below a
-// millisecond.
+// The engine builds a search tree over a shape's triangles in a single call. With this number of triangles, the call
+// takes well below a millisecond.
 constexpr size_t kTrianglesPerShape = 256;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }

@@ -35,7 +35,7 @@ class Colliders {
     size_t chunks = 0, waiting = 0;
   };
   Counts counts() const { return {bodies_.size(), waiting_.size()}; }
-  /// Whether a collider that touches the box (scene coordinates) is still pending.
+  /// Returns whether a collider that touches the box (scene coordinates) has not been made yet.
   bool waitsIn(const Aabb& box) const;
 
  private:

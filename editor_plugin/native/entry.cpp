@@ -25,8 +25,8 @@ void writeLog(void*, sgm_log_level level, const char* message) {
   if (level == SGM_LOG_WARNING) logWarning(message);
 }
 
-// Every thread of the runtime calls the profiler's hook `thread` before it works; this hook is used to lower its
-// priority.
+// The runtime calls the profiler's hook `thread` in each of its threads before the thread does any work. The plugin
+// uses this hook to lower the thread's priority.
 constexpr sgm_profiler kThreads{[](void*, const char*) -> uint64_t { return 0; }, [](void*, uint64_t) {},
                                 [](void*, const char*) { yieldToEngine(); }, nullptr, nullptr};
 
@@ -117,12 +117,12 @@ void document() {
 void initialise(void* userdata, GDExtensionInitializationLevel level) {
   auto& loaded = *static_cast<Loaded*>(userdata);
   if (level == GDEXTENSION_INITIALIZATION_SCENE) start(loaded);
-  // Only editors reach this level. If the runtime could not be created, there are no classes to describe.
+  // Only editors reach this level. Without a runtime, the classes were not registered, so there is nothing to describe.
   if (level == GDEXTENSION_INITIALIZATION_EDITOR && loaded.plugin.runtime != nullptr) document();
 }
 
 void deinitialise(void* userdata, GDExtensionInitializationLevel level) {
-  // The last level for which this library has initialized anything.
+  // Levels end in the reverse order of their start, so the scene level, the lowest that this library uses, ends last.
   if (level != GDEXTENSION_INITIALIZATION_SCENE) return;
   auto* loaded = static_cast<Loaded*>(userdata);
   stop(*loaded);
@@ -137,7 +137,7 @@ extern "C" __attribute__((visibility("default"))) GDExtensionBool sgm_godot_init
     GDExtensionInitialization* initialization) {
   using namespace sgm_godot;
   if (const char* missing = loadInterface(address, library); missing != nullptr) {
-    // Older engines offer no other function to report the error.
+    // Older engines have only this function for printing an error.
     const auto print = reinterpret_cast<GDExtensionInterfacePrintErrorWithMessage>(
         reinterpret_cast<void*>(address("print_error_with_message")));
     if (print != nullptr) {

@@ -29,7 +29,7 @@ int32_t readImport(void* user, const char* path, const char** text, size_t* size
 std::string folderOf(const std::string& path) {
   const size_t slash = path.rfind('/');
   if (slash == std::string::npos) return "res://";
-  // The folder of "res://cave.sgm" is "res:/", to which "/" and a name are appended.
+  // For "res://cave.sgm" the folder is "res:/". This is correct, because a "/" and a name are appended later.
   return path.substr(0, slash);
 }
 
@@ -136,7 +136,7 @@ int64_t Grammar::reload() {
   file_time_ = time;
   // keeps this object alive: a listener of the signal may release the last other reference to it
   const Variant kept(self());
-  adopt(*text);  // also if the text is unchanged, because the imported files may have changed
+  adopt(*text);  // compile even an unchanged text again, because the files that it imports may have changed
   return valid_ ? kOk : kErrorParse;
 }
 

@@ -15,7 +15,8 @@ bool isGrammar(const std::string& path) {
   return path.size() > kEnding.size() && path.compare(path.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
 }
 
-/// Returns the paths in lines `import "path" as name;`, except those of the built-in library.
+/// Returns the paths of all files that the text imports by lines `import "path" as name;`. Files of the built-in
+/// library are left out.
 std::vector<std::string> importsOf(const std::string& text) {
   std::vector<std::string> found;
   for (size_t line = 0; line < text.size();) {

@@ -11,16 +11,16 @@ namespace {
 
 constexpr const char* kShaders[] = {"res://addons/sgm/shaders/triplanar.gdshader",
                                     "res://addons/sgm/shaders/uv.gdshader"};
-constexpr size_t kMaxColors = 64, kMaxViewers = 4;  // sizes of arrays in the shaders
+constexpr size_t kMaxColors = 64, kMaxViewers = 4;  // sizes of the arrays that the shaders declare
 constexpr int kPatternMetres = 1024;                // metres after which the patterns of the shaders repeat
 
 Variant singleton(const char* name) { return Variant(engine().global_get_singleton(Name(name).get())); }
 
 Variant make(const char* class_name) { return Variant(engine().classdb_construct_object(Name(class_name).get())); }
 
-/// Returns the plugin's shader, reduced to the patterns of the world's materials: a shader with all patterns takes
-/// seconds to compile. Worlds with the same patterns share a shader while any of them uses it and the shader's file is
-/// unchanged.
+/// Returns a variant of the plugin's shader with only those patterns that the world's materials use, since a shader
+/// with all patterns takes seconds to compile. Worlds that use the same patterns share this variant. It is made again
+/// if the shader's file has changed, or if no world was using it any more.
 Variant shaderWith(Plugin& plugin, const Variant& whole, const std::string& path, uint32_t patterns) {
   std::string code = "#define SGM_PATTERNS_CHOSEN\n";
   for (uint32_t i = 0; i < 32; ++i) {

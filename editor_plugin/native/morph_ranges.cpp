@@ -7,7 +7,8 @@ namespace {
 
 constexpr float kNever = 1e9f;
 
-/// Distance in metres from the nearest viewer to the farthest point of a chunk's box.
+/// Distance in metres from the nearest viewer to the farthest point of a chunk's box. The nearest viewer is the one
+/// with the smallest such distance.
 float farthest(const sgm_chunk_key& key, const std::vector<Units>& viewers, int32_t cell_units) {
   const double edge = std::ldexp(static_cast<double>(cell_units) * SGM_CHUNK_CELLS, key.level);
   const double corner[3] = {key.x * edge, key.y * edge, key.z * edge};

@@ -15,11 +15,12 @@ struct MorphRanges {
   friend bool operator==(const MorphRanges&, const MorphRanges&) = default;
 };
 
-/// Computes the ranges from the drawn chunks. A seam belongs to the finer of two chunks, and joins it to vertices of
-/// the coarser level, which do not move in the seam. So that no gap opens, a level moves only beyond all drawn chunks
-/// of the next finer level that have seams. (A range computed from the world's distances alone would open gaps, because
-/// chunks are large and extend beyond their level's distance.) The end of a level's range is the distance at which the
-/// first of its drawn chunks with a seam ends. `viewers`: in units of the world. `cell_units`: cell size of level 0.
+/// Computes the ranges from the drawn chunks. A seam belongs to the finer of two neighbouring chunks, and joins it to
+/// vertices of the coarser level; the coarser vertices do not move in the seam. To avoid gaps there, a level's vertices
+/// begin to move only farther away than all drawn chunks of the next finer level that have seams. (A range computed
+/// from the world's level distances alone would open gaps: chunks are large and extend beyond the distance of their
+/// level.) The range of a level ends at the farthest point of its nearest drawn chunk with a seam. `viewers`: in units
+/// of the world. `cell_units`: cell size of level 0.
 MorphRanges morphRanges(const std::vector<Picture::Shown>& shown, const std::vector<Units>& viewers, int32_t cell_units,
                         int32_t top_level);
 

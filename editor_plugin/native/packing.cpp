@@ -27,11 +27,11 @@ constexpr uint32_t kNone = UINT32_MAX;
 constexpr int kMaxMorph = 1024, kMorphBits = 12;
 constexpr uint32_t kMorphZero = 2048;
 
-/// The triangles of one slot, as indices of corners. A corner is a wedge of the mesh, or a vertex if the mesh has no
-/// wedges.
+/// The triangles of one material slot, as indices of corners. A corner is a wedge of the mesh (a vertex with texture
+/// coordinates, see sgm.h), or a vertex if the mesh has no wedges.
 struct Corners {
-  std::vector<uint32_t> indices;  // indices of the triangles' corners in `used`
-  std::vector<uint32_t> used;     // the used corners, as indices of the mesh's corners
+  std::vector<uint32_t> indices;  // three for each triangle: indices of its corners in `used`
+  std::vector<uint32_t> used;     // the distinct corners of these triangles, as indices of the mesh's corners
 };
 
 struct Reader {

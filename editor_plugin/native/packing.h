@@ -20,10 +20,11 @@ struct Part {
   uint32_t seams = 0;  // mask of the seams: the bit of a face's seam is 1 << sgm_face
 };
 
-/// Packs the triangles, one surface for each slot. `slots`: the slot of each material of the grammar; 0 is the blended
-/// material, which all materials share for which the game has set no material. A triangle belongs to the material with
-/// the largest share in it. Positions are metres from the chunk's corner, as exact as in the mesh; attributes have the
-/// layout that addons/sgm/shaders/surface.gdshaderinc reads. Empty if the part has no triangles.
+/// Packs the triangles, one surface for each slot. `slots`: the slot of each material of the grammar. Slot 0, the
+/// blended material, draws all materials for which the game has set no material of its own. A triangle is drawn by the
+/// material with the largest share in it. Positions are metres from the chunk's corner, as exact as in the mesh;
+/// attributes have the layout that addons/sgm/shaders/surface.gdshaderinc reads. Returns no surfaces if the part has no
+/// triangles.
 std::vector<PackedSurface> packSurfaces(const sgm_mesh_view& mesh, Part part, const std::vector<uint16_t>& slots);
 
 /// A surface as plain arrays for ArrayMesh: positions, normals, texture coordinates, colours (blended from `palette`)

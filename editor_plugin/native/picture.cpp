@@ -118,7 +118,7 @@ void Picture::takeDrawn(const std::vector<sgm_drawn_chunk>& chunks, const Pictur
   Frame frame;
   for (const sgm_drawn_chunk& chunk : chunks) {
     std::shared_ptr<sgm_mesh> mesh = owned(chunk.mesh);
-    known_.emplace(chunk.key, mesh);  // keeps a mesh that a READY event has already set for this key
+    known_.emplace(chunk.key, mesh);  // emplace() keeps a mesh that a READY event has already stored for this key
     frame.push_back(
         {SGM_EVENT_SHOWN, chunk.key, mesh, submit(mesh, {true, 0}), submit(mesh, {false, chunk.seams}), chunk.seams});
   }
@@ -167,7 +167,7 @@ void Picture::drop(UploadOwner& upload) {
   plugin_.rendering->free(upload->instance);
   plugin_.rendering->free(upload->rid);
   upload->instance = upload->rid = Rid();
-  // If the part is still in the queue of uploads, it counts as uploaded, so that the queue skips it.
+  // If the part is still in the queue of uploads, marking it as uploaded makes the queue skip it.
   upload->uploaded = true;
   upload.reset();
 }

@@ -23,7 +23,7 @@ struct KeyLess {
 struct Look {
   Rid scenario;
   Placement placement;
-  std::vector<uint16_t> slots;  // slot of each material, indexed by material of the grammar
+  std::vector<uint16_t> slots;  // slot in `materials` of each of the grammar's materials
   std::vector<Rid> materials;   // the engine's id of each material, indexed by slot
   bool shadow = true, visible = true;
   int64_t layers = 1;
@@ -39,9 +39,9 @@ class Picture {
 
   /// Receives all events of one update, in their order, and becomes the owner of their meshes.
   void take(const std::vector<sgm_world_event>& events);
-  /// Receives everything that a world draws, for a picture that starts after the world's first events; becomes the
-  /// owner of the meshes. `before`: the picture that has received all events so far. Its meshes that are not drawn yet
-  /// are taken over.
+  /// Receives everything that a world draws. Used for a picture that starts after the world's first events. Becomes the
+  /// owner of the meshes. `before`: the picture that has received all events so far; its meshes that are not drawn yet
+  /// move to this picture.
   void takeDrawn(const std::vector<sgm_drawn_chunk>& chunks, const Picture& before);
 
   /// A chunk that appeared, disappeared, or got another mesh.
@@ -50,8 +50,8 @@ class Picture {
     sgm_chunk_key key;
     MeshOwner mesh;  // the mesh of a chunk that is shown or replaced; null if the chunk is removed
   };
-  /// Uploads meshes for `seconds`, but at least one, and then shows all frames that are complete. Each frame is shown
-  /// as a whole, so that no partial change is visible.
+  /// Uploads meshes until `seconds` have passed, but at least one mesh. Then shows the changes of all frames whose
+  /// meshes are uploaded. The changes of a frame are shown together, so that no partial change is visible.
   std::vector<Change> advance(double seconds);
   /// Uploads and shows everything that was received. Blocks until the background thread has packed it.
   std::vector<Change> finish();
@@ -82,7 +82,8 @@ class Picture {
     sgm_event_kind kind;
     sgm_chunk_key key;
     std::shared_ptr<sgm_mesh> mesh;
-    UploadOwner body, seams;  // parts to draw from now on; null: unchanged
+    // new parts, which replace the drawn parts once they are uploaded; null: the drawn part stays
+    UploadOwner body, seams;
     uint32_t mask;
   };
   struct Chunk {

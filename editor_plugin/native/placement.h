@@ -11,8 +11,8 @@ namespace sgm_godot {
 
 using Units = std::array<double, 3>;
 
-/// The transform of the node, and the world position (metres) that lies at the node's own origin. A game moves that
-/// position along with its player, so that single-precision coordinates stay near 0 in an endless world.
+/// The transform of the node, and the position in the world (in metres) that lies at the node's own origin. A game
+/// moves this position along with its player, so that in an endless world single-precision coordinates stay near 0.
 struct Placement {
   Transform node;
   Vector3i origin;

@@ -25,7 +25,7 @@ struct Plugin {
   /// Instance ids of the shaders that worlds share, by file and pattern mask (materials.cpp). Main thread only.
   std::map<std::pair<std::string, uint32_t>, uint64_t> shaders;
   bool in_editor = false;
-  /// While it is set, the plugin reports to the engine that .sgm files are not resources, so that the editor's
+  /// While this flag is true, the plugin reports to the engine that .sgm files are not resources, so that the editor's
   /// FileSystem dock opens them as text.
   bool files_are_text = false;
 };

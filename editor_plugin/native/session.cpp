@@ -19,7 +19,7 @@ int32_t topLevelFor(double view_distance, int32_t cell_units) {
   return static_cast<int32_t>(std::clamp(std::floor(std::log2(view_distance / chunk)), 0.0, double{SGM_MAX_LEVEL}));
 }
 
-/// Describes distances that are out of range; empty if all are valid.
+/// Returns a message about view distances that are out of range; empty if all are valid.
 std::string wrongDistances(const Settings& settings) {
   std::string wrong;
   const auto look = [&](const char* name, double metres) {
@@ -200,7 +200,8 @@ std::vector<sgm_drawn_chunk> Session::drawn() const {
   std::vector<sgm_drawn_chunk> chunks;
   size_t count = 0;
   sgm_world_get_drawn(world_.get(), nullptr, 0, &count, nullptr);
-  // The number of chunks may grow between the two calls, so the buffer gets room for some more.
+  // The number of chunks may grow between the call that returns it and the call that fills the buffer, so the buffer
+  // has room for some more.
   do {
     chunks.resize(count + 16);
     count = chunks.size();

@@ -15,8 +15,8 @@ struct Plugin;
 /// A message for the user if something failed; nullopt on success.
 using Failure = std::optional<std::string>;
 
-/// A running world. Shared, so that a measurement on another thread may outlive a restart. It is destroyed on the
-/// background thread, because the runtime waits there for unfinished jobs.
+/// A running world. It is shared, so that a measurement on another thread may outlive a restart. It is destroyed on the
+/// background thread, because its destruction waits for unfinished jobs of the runtime.
 class Session {
  public:
   /// Returns null if the world cannot be made; `failure` is then the reason.

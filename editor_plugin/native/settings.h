@@ -10,8 +10,8 @@
 namespace sgm_godot {
 
 struct Settings {
-  /// The work that follows a change of a setting. kLook and kPlacement are done at once, the others in the next frame.
-  /// No effect includes the work of another.
+  /// The work that follows a change of a setting. kLook and kPlacement are done at once, the other kinds in the next
+  /// frame. No kind includes the work of another kind.
   enum Effect : unsigned {
     kNothing = 0,
     kField = 1,    // the world gets another field

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests that the demo without the native library shows what to do, and neither crashes nor opens a place.
+# Tests the demo without the native library: it must show what to do, and neither crash nor open a place.
 set -euo pipefail
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$tests/../.." && pwd)

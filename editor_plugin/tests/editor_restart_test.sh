@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Tests a restart of the editor while a grammar is open as text: the scene's world still has the grammar when the editor
-# opens both again, and a scene that is saved then still refers to the grammar's file.
+# Tests a restart of the editor while a grammar is open as text. When the editor has opened the scene and the text
+# again, the scene's world must still have the grammar, and saving the scene must keep the reference to the grammar's
+# file.
 set -euo pipefail
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$tests/../.." && pwd)

@@ -23,7 +23,8 @@ config_version=5
 [editor_plugins]
 enabled=PackedStringArray("res://addons/sgm/plugin.cfg")
 PROJECT
-  # An engine that discovers a native library only during the import crashes when it quits (godotengine/godot#111048).
+  # Register the native library before the first import: an engine that discovers the library only during the import
+  # crashes when it quits (godotengine/godot#111048).
   mkdir "$project/.godot"
   echo "res://addons/sgm/sgm.gdextension" >"$project/.godot/extension_list.cfg"
   echo "$project"

@@ -43,9 +43,9 @@ project_of() {
   echo "$project"
 }
 
-# Whether a test of this kind can use the project as editor_plugin/build.sh has imported it: importing again takes
-# longer than most tests. Editor tests must import again: if the test's files are new to the editor, it loads its
-# plugins twice.
+# Whether a test of this kind can use the project as editor_plugin/build.sh has imported it. This saves time: a new
+# import takes longer than most tests. Editor tests must import again, because the editor loads its plugins twice if it
+# finds new files, such as the test's.
 is_imported() {
   local kind=$1 known=$demo/.godot/sgm_imported
   [[ $kind != editor && -e $known && -z $(find "$demo" -path "$demo/.godot" -prune -o -type f -newer "$known" -print -quit) ]]
@@ -91,7 +91,7 @@ run_one() {
     opengl) command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-method gl_compatibility
       --rendering-driver opengl3 --resolution 1280x720 --path "$project" --script "tests/$name.gd") ;;
     editor)
-      # A plugin in the copy loads the test into the editor.
+      # Adds a plugin to the project's copy, which loads the test into the editor.
       cp -a "$tests/lib/driver" "$project/addons/sgm_test"
       sed -i "s#^enabled=PackedStringArray(#&\"res://addons/sgm_test/plugin.cfg\", #" "$project/project.godot"
       export SGM_EDITOR_TEST="res://tests/$name.gd"

@@ -37,7 +37,7 @@ class EngineProfiler {
   const std::map<std::string_view, Zone>& zones() const { return zones_; }
   /// the highest value that each plot has received
   const std::map<std::string_view, double>& highest() const { return highest_; }
-  /// whether every end of a zone has closed the innermost open zone of its thread
+  /// true if, so far, each zone that was ended was the innermost open zone of its thread
   bool nested() const { return nested_; }
 
  private:

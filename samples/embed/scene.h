@@ -1,6 +1,6 @@
 #pragma once
-// An engine's copy of a streamed world: buffers for each chunk, and which of them are drawn, according to the world's
-// events.
+// An engine's copy of a streamed world: it stores the buffers of each chunk and, from the world's events, tracks which
+// chunks are drawn.
 
 #include <sgm/sgm.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-// The draws of one frame: each is a part of a chunk, as a command on a buffer. They are sorted, so that few buffers are
-// bound.
+// The draws of one frame. Each draw is the command that draws one part of a chunk from a buffer. The draws are sorted
+// by buffer, so that each buffer is bound only once.
 
 #include <vulkan/vulkan.h>
 
@@ -30,7 +30,7 @@ struct Draw {
 struct DrawList {
   std::vector<Draw> draws;
   std::vector<ChunkRecord> records;
-  // The device must wait until the semaphore has this value before it draws the list. Null: no wait is needed.
+  // The device must not draw the list before this timeline semaphore reaches `value`. Null: no wait is needed.
   VkSemaphore semaphore = VK_NULL_HANDLE;
   uint64_t value = 0;
 

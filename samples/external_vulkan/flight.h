@@ -50,8 +50,9 @@ class Flight {
     frames_.draw(drawn_, view.matrix(aspect_));
   }
 
-  /// Draws the last frame again from uploaded buffers, and requires the same picture, byte for byte. loaded: the world
-  /// is in the state that load() has left, in which the camera cannot be at a place with coarse chunks only.
+  /// Draws the last frame again from uploaded buffers, and requires the same picture, byte for byte. loaded: true if
+  /// load() was called for this view, so that the camera has fine chunks around it. Otherwise it may be at a place
+  /// where only coarse chunks are drawn.
   Picture check(const ViewPoint& view, bool loaded) {
     const Picture picture = frames_.picture();
     const Picture other = uploaded_.draw(world_, drawn_, view.units(), view.matrix(aspect_));

@@ -15,7 +15,7 @@
 #include "view_point.h"
 #include "vulkan_device.h"
 
-/// Frames are numbered from 1. Not thread-safe.
+/// Draws frames, several of which may be in flight on the device. Frames are numbered from 1. Not thread-safe.
 class Frames {
  public:
   /// count: maximum number of frames in flight. Device and pipeline must outlive this object.
@@ -120,7 +120,7 @@ class Frames {
     must(vkBeginCommandBuffer(slot.commands, &begin), "vkBeginCommandBuffer");
     slot.target.begin(slot.commands, pipeline_);
     vkCmdPushConstants(slot.commands, pipeline_.layout(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof matrix, matrix.data());
-    // A single call draws all parts that lie in the same buffer.
+    // One draw call draws all consecutive parts that lie in the same buffer.
     for (size_t first = 0, next = 0; first < list.draws.size(); first = next) {
       const VkBuffer buffer = list.draws[first].buffer;
       while (next < list.draws.size() && list.draws[next].buffer == buffer) ++next;

@@ -1,5 +1,5 @@
 #pragma once
-// The places of a chunk's triangles on the device: in buffers of the library, or in one that the engine has filled
+// The places of a chunk's triangles on the device: in buffers of the library, or in a buffer that the engine has filled
 // itself.
 
 #include <sgm/sgm.h>

@@ -18,7 +18,8 @@ inline void must(VkResult result, const char* call) {
   throw std::runtime_error(std::string(call) + " failed: VkResult " + std::to_string(result));
 }
 
-/// Owner of a device's handle. The device must outlive it, and must no longer use the handle when it is destroyed.
+/// Owner of a handle of a Vulkan device. The device must outlive the owner, and must have finished using the handle
+/// when the owner is destroyed.
 template <class Handle, auto Destroy>
 class Owned {
  public:

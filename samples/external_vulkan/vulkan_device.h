@@ -29,7 +29,7 @@ class VulkanDevice {
   VkDevice handle() const { return device_; }
   uint32_t family() const { return family_; }
 
-  /// Thread-safe: a queue may be used by one thread at a time, and the library uses it too.
+  /// Thread-safe: a lock ensures that only one thread at a time uses the queue, which the library uses too.
   void submit(const VkSubmitInfo& info) {
     const std::lock_guard lock(queue_mutex_);
     must(vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE), "vkQueueSubmit");

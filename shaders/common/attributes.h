@@ -4,8 +4,8 @@ struct PackedNormal {
   Int x, y;
 };
 
-// Packs a gradient as a normal. The field grows out of the solid, so its gradient points outwards. A gradient of length
-// 0 becomes +y.
+// Packs a gradient as a normal. The field increases from the solid to the void, so its gradient points out of the
+// solid. A gradient of length 0 becomes +y.
 FN PackedNormal packNormal(Real dx, Real dy, Real dz) {
   PRECISE Real gx = clampReal(dx, -1.0e18f, 1.0e18f);
   PRECISE Real gy = clampReal(dy, -1.0e18f, 1.0e18f);

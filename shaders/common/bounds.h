@@ -153,8 +153,8 @@ FN Bounds sumEndRange(Bounds sum, float threshold, float size) {
 }
 
 // Returns bounds of the field after the shapes that a layer adds and cuts. If pruning has removed all cuts of a layer,
-// the record that ends the layer is missing; the shapes that it adds are then joined together with those of the next
-// layer.
+// the record that ends the layer is missing. The shapes that the layer adds are then joined to the field together with
+// those of the next layer.
 FN Bounds layerJoined(Bounds field, Bounds adds, Bounds cuts) {
   return makeBounds(max(min(field.lo, adds.lo), -cuts.hi), max(min(field.hi, adds.hi), -cuts.lo));
 }

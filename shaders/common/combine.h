@@ -211,7 +211,8 @@ FN Dual opDisplace(Dual a, Dual b) {
   return settled(v, x, y, z, a.label);
 }
 
-// Initial values: farAway() for minima, larger than every value (kFar in runtime/field/program.h); zero for sums.
+// Initial values of accumulators. Minima begin with farAway(), which is larger than every value (kFar in
+// runtime/field/program.h); sums begin with zero.
 FN Dual farAway() {
   PRECISE Real zero = broadcast(0.0f);
   return makeDual(broadcast(1.0e30f), zero, zero, zero, broadcastInt(0));
@@ -269,8 +270,9 @@ FN Dual roundCut(Dual a, Dual b, float k) {
   return opNegate(roundUnion(opNegate(a), b, k));
 }
 
-// Returns the weight of a distance in a sum, by a kernel with compact support. Parameters: 0 reciprocal of the inner
-// radius, 1 reciprocal of the squared support radius.
+// Returns a shape's weight in a sum of shapes, from the distance d to the shape: a kernel that is 0 beyond a support
+// radius. Parameters: 0 reciprocal of the inner radius (the depth -d at which the kernel has its centre), 1 reciprocal
+// of the squared support radius, which is given in inner radii.
 FN Dual opKernel(Dual d, Params P) {
   PRECISE Real r = d.v * PF(P, 0);
   r = r + 1.0f;

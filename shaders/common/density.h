@@ -1,16 +1,16 @@
-// The density of fog, 0 to 1, which replaces the solid of a mesh. It is computed from the same quantised samples as
-// meshes.
+// Density, 0 to 1, of a field that is drawn as fog instead of as a solid mesh. It is computed from the same quantised
+// samples Q as a mesh.
 //
-// With d = -Q, the depth below the surface in 1024ths of a finest cell, w the width of the edge in the same unit, and t
-// = min(max(d / w, 0), 1), the density is
+// Let d = -Q be the depth below the surface in 1024ths of a finest cell, w the width of the fog's soft edge in the same
+// unit, and t = min(max(d / w, 0), 1). Then the density is
 //   2 t^2            where t < 1/2
 //   1 - 2 (1 - t)^2  elsewhere.
 // This is the integral of the linear B-spline, a smooth step of second order. Each of its operations is monotone, so
 // that density never decreases with depth, even after rounding; the usual cubic smooth step does not guarantee this.
 // Density is exactly 0 if the sample is not solid, and 1 from depth w on.
 
-// Returns the density of a quantised sample. inverse_edge: 1 / w, for w from 2^-10 to 2^22, beyond which samples are
-// clamped.
+// Returns the density of a quantised sample. inverse_edge: 1 / w, where w is 2^-10 to 2^22; 2^22 is the largest
+// magnitude of a quantised sample.
 FN Real densityOf(Int q, float inverse_edge) {
   PRECISE Real t = toReal(wrapSub(broadcastInt(0), q)) * inverse_edge;
   t = clampReal(t, 0.0f, 1.0f);

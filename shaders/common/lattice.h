@@ -1,10 +1,12 @@
 // Interpolates samples on a lattice of integer positions, linearly along each axis and exactly at the lattice's points.
-// The samples of a host field are multiples of 1/1024 unit, so that differences of two samples are never denormals,
-// which devices treat differently. A position on the border of two cells is interpolated with weight 1 for the sample
-// there. So two lattices that share points agree at these points, wherever each lattice begins.
+// The samples of a host field (a field that the engine computes) are multiples of 1/1024 unit. So a difference of two
+// samples is never a denormal, which devices treat differently. A position on the border of two cells gets exactly the
+// sample there, with weight 1. So two lattices that share points agree at these points, even if they begin at different
+// positions.
 
-// Along one axis: the lattice cell that contains a position, the position in this cell (0 to 1), and its change per
-// unit. Positions beyond the lattice are clamped to its end.
+// Along one axis: the lattice cell that contains a position, the position t in this cell (0 to 1), and the factor that
+// converts sampleSlope() to the slope per unit. A position outside of the inner cells is moved to the nearest point of
+// them; there the factor is 0, because the value is constant.
 struct SamplePlace {
   Int cell;
   Real t;
@@ -12,8 +14,8 @@ struct SamplePlace {
 };
 
 // Integer arithmetic decides in which cell a position lies. Within 2^20 cells, the rounded product is the right cell or
-// a neighbour; beyond that, it is clamped to the last cell. The first and the last cell of the lattice are used only
-// for slopes.
+// a neighbour; beyond that, it is clamped to the last cell. No position is placed in the first or the last cell of an
+// axis: their outer samples serve only for slopes.
 FN SamplePlace samplePlace(Int p, int origin, int spacing, int count, float inverse) {
   Int d = saturatingSub(p, broadcastInt(origin));
   d = sel(d < 0, broadcastInt(0), d);
@@ -43,8 +45,8 @@ FN Real mixSamples(Real a, Real b, Real t) {
   return r;
 }
 
-// Returns twice the slope along a row of samples, from differences over two cells, which are symmetric and have no
-// creases.
+// Returns the slope along a row of samples, per cell, times two. Interpolates between the central differences at the
+// two ends of the cell, so that the slope is continuous from cell to cell.
 FN Real sampleSlope(Params P, Int at, Int step, Real t) {
   PRECISE Real near = gatherReal(P, wrapAdd(at, step)) - gatherReal(P, wrapSub(at, step));
   PRECISE Real far = gatherReal(P, wrapAdd(wrapAdd(at, step), step)) - gatherReal(P, at);
@@ -60,8 +62,8 @@ FN Real slopeInCell(Params P, Int at, Int along, Int b, Int c, Real t, Real tb, 
 }
 
 // Interpolates the samples of a lattice. Parameters: 1-3 origin, 4 spacing in units, 5-7 number of points along x, y, z
-// (at least 4 each), 8 reciprocal of the spacing, 9 magnitude from which a value counts as far, 10 and following: the
-// samples in units, x fastest.
+// (at least 4 each), 8 reciprocal of the spacing, 9 limit: a value of at least this magnitude counts as far away, and
+// becomes +-1e18, 10 and following: the samples in units, x fastest.
 FN Dual opLattice(Int px, Int py, Int pz, Params P) {
   SamplePlace x = samplePlace(px, PI(P, 1), PI(P, 4), PI(P, 5), PF(P, 8));
   SamplePlace y = samplePlace(py, PI(P, 2), PI(P, 4), PI(P, 6), PF(P, 8));

@@ -169,7 +169,7 @@ FN Dual opNoise(Int px, Int py, Int pz, Params P) {
   PRECISE Real y = broadcast(0.0f);
   PRECISE Real z = broadcast(0.0f);
   int k = 0;
-  do {  // runs at least once, because software Vulkan runs the body of a `for` loop once more than its count
+  do {  // not `for`: software Vulkan runs the body of a `for` loop once more than its count
     Dual o = noiseOctave(ox, oy, oz, QI(P, 6 + 2 * k), QF(P, 7 + 2 * k), PU(P, 4) + 0x9E3779B9u * uint(k));
     PRECISE Real a = o.v * weight;
     v = v + a;

@@ -3,14 +3,14 @@
 //
 // Allowed on values are + - *, comparisons, conversions and integer operations; conditions use sel() instead of
 // branches. A value that differs from sample to sample has type Real, Int, Uint or Bool; a value that is equal for all
-// samples has type float, int or uint. PF, PI and PU read a parameter word of an op that is the same for all samples;
-// gatherReal reads one for each sample. QF, QI and QU do the same as PF, PI and PU if the word's number is not a
-// constant but below 28; RF, RI and RU if it may be any number. On some backends these reads are slower. No word may be
-// read on the right of && or ||, or in a branch that not all samples take: the invocations of a shader exchange words,
-// and one that does not take part would supply undefined words. Every product or sum that is an operand of a sum must
-// be a local variable declared PRECISE, so that GLSL does not contract it. The headers here have no include guards: a
-// C++ source includes common.h once in each namespace for which it has defined the types (scalar types below, vectors
-// in backend/cpu/wide.h).
+// samples has type float, int or uint. PF, PI and PU read a parameter word of an op, the same word for all samples; the
+// word's number must be a constant. QF, QI and QU do the same for a number that is not a constant, but below 28; RF, RI
+// and RU for any number. On some backends these reads are slower. gatherReal reads a different word for each sample. No
+// word may be read on the right of && or ||, or in a branch that not all samples take: the invocations of a shader
+// exchange words, and one that does not take part would supply undefined words. Every product or sum that is an operand
+// of a sum must be a local variable declared PRECISE, so that GLSL does not contract it. The headers here have no
+// include guards: a C++ source includes common.h once in each namespace for which it has defined the types (scalar
+// types below, vectors in backend/cpu/wide.h).
 
 #ifndef __cplusplus
 
@@ -60,7 +60,7 @@ FN Int wrapMul(Int a, Int b) { return a * b; }
 #define RI(P, i) PI(P, i)
 
 #ifndef SGM_WIDE
-// Scalar types, for the reference evaluator, whose bits all other backends must reproduce.
+// Scalar types, for the reference evaluator. All other backends must reproduce its results bit for bit.
 #ifdef __CUDACC__
 #define FN __host__ __device__ inline
 #else

@@ -153,8 +153,8 @@ FN Dual opTruncone(Int px, Int py, Int pz, Params P) {
   PRECISE Real over = radial - rim;
   PRECISE Real cx = maxReal(over, zero);
   PRECISE Real cy = maxReal(cap, zero);
-  // Clamps the nearest point to the slanted side. Within the side's length the distance to its plane counts; beyond it,
-  // the distance to the rim.
+  // In the half-plane of radius and y, the slanted side is a line segment, and each rim is an end of it. For a point
+  // beside the segment, the distance is that to the segment's line; for a point beyond an end, it is that to the end.
   PRECISE Real held = clampReal(along, 0.0f, PF(P, 18));
   PRECISE Real past = along - held;
   PRECISE Real slant2 = lengthSquared2(side, past);
@@ -297,8 +297,8 @@ FN Dual opSuperquadric(Int px, Int py, Int pz, Params P) {
   return fromLocal(d.v, d.x, d.y, d.z, P);
 }
 
-// Returns the power morph at t: a superquadric with radii between 13-15 (t = 0) and 16-18 (t = 1), and exponent 2 / (1
-// - t + t * 2 / kMaxPower), where parameter 19 is 2 / kMaxPower.
+// Returns the power morph at t: a superquadric. Its radii are interpolated between the parameters 13-15 (t = 0) and
+// 16-18 (t = 1), and its exponent is 2 / (1 - t + t * 2 / kMaxPower). Parameter 19 is 2 / kMaxPower.
 FN Dual powerMorphAt(Vec3 q, Real t, Params P) {
   PRECISE Real k = 1.0f - t;
   PRECISE Real ax = k * PF(P, 13);
@@ -427,8 +427,8 @@ FN Corner kernelOf(Real x) {
   return r;
 }
 
-// Returns the weight of a ball in a sum, by a kernel with compact support, without a square root. Parameters: 4
-// reciprocal of the squared support radius. No frame.
+// Returns the weight of a ball in a sum, by a kernel with compact support. The kernel takes the squared distance, so no
+// square root is needed. Parameters: 4 reciprocal of the squared support radius. No frame.
 FN Dual opBlob(Int px, Int py, Int pz, Params P) {
   Vec3 d = offsetFrom(px, py, pz, P);
   PRECISE Real x = lengthSquared3(d) * PF(P, 4);

@@ -1,5 +1,5 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Requires no rounding mode, for devices on which a shader cannot require one: they round to nearest, or are reported
-// as not exact.
+// A variant of the shader that does not require a rounding mode, for devices that do not support such a requirement.
+// These devices round to nearest anyway, or they are reported as not exact.
 #include "conformance/field.glsl"

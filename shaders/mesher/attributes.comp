@@ -4,6 +4,6 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
-// Requires no rounding mode, for devices on which a shader cannot require one: they round to nearest, or are reported
-// as not exact.
+// A variant of the shader that does not require a rounding mode, for devices that do not support such a requirement.
+// These devices round to nearest anyway, or they are reported as not exact.
 #include "mesher/attributes.glsl"

@@ -27,8 +27,9 @@ void writeSlot(uint slot, Dual d) {
   slot_label[slot] = d.label;
 }
 
-// All `precise` arithmetic is in functions of values and must not read global arrays directly: glslang traces `precise`
-// backwards through all assignments to such an array, which takes extremely long. Function calls end this search.
+// All `precise` arithmetic is in functions whose arguments are values, and must not read global arrays directly:
+// glslang traces `precise` backwards through all assignments to such an array, which takes extremely long. Function
+// calls end this search.
 float alongColumn(Dual d, vec3 column) {
   PRECISE Real a = d.x * column.x;
   PRECISE Real b = d.y * column.y;

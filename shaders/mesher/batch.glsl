@@ -31,9 +31,11 @@ const uint kChunkOrigin = 0u;   // origin of the chunk: three words, in units
 const uint kChunkCell = 3u;     // in units
 const uint kChunkSamples = 4u;  // offset in `scratch` of the chunk's samples: quantised values Q of all 33^3, x fastest
 const uint kChunkSigns = 5u;    // offset in `scratch` of the signs: two words per row, for samples 0..31 and sample 32
-const uint kChunkRows = 6u;     // offset in `scratch` of the counts of the rows, kRowsWords words
+const uint kChunkRows = 6u;     // offset in `scratch` of the counts of the chunk's rows (kRowWords and below),
+                                // kRowsWords words
 const uint kChunkPart = 7u;     // index of the chunk's body among the parts; kNoRoom: no body is requested
-const uint kChunkFaces = 8u;    // for a chunk without a body: faces that have seams, bit (1 << Face); otherwise 0
+const uint kChunkFaces = 8u;    // faces that have seams, bit (1 << Face), for a chunk whose body is not requested;
+                                // otherwise 0
 
 // The counts of a chunk's rows. Four words per row: the numbers of vertices, of indices and of active cells before the
 // row, and a mask of the row's active cells. After all rows: the number of rows that have active cells, and a list of
@@ -49,20 +51,21 @@ const uint kSeamChunk = 0u;    // index of the seam's chunk in the batch
 const uint kSeamFace = 1u;     // face of the chunk: value of the enum Face
 const uint kSeamSamples = 2u;  // offset in `scratch` of the 17^2 coarse samples of the face: quantised values Q, a
                                // fastest
-const uint kSeamSigns = 3u;    // offset in `scratch` of the coarse signs: one word per row b, with bit a
+const uint kSeamSigns = 3u;    // offset in `scratch` of the coarse signs: one word per row b; its bit a is the sign of
+                               // sample (a, b)
 const uint kSeamCounts = 4u;   // offset in `scratch` of the seam's counts, kSeamCountWords words
 const uint kSeamPart = 5u;     // index of the seam among the parts
 
-// The counts of a seam, as offsets in words from kSeamCounts. For each row of samples, the number of the first vertex
-// of this row is stored.
+// The counts of a seam: offsets in words from kSeamCounts. The first three arrays store, for each row of samples, the
+// number of the row's first vertex.
 const uint kSeamFineRows = 0u;      // 33
 const uint kSeamCoarseRows = 33u;   // 17
 const uint kSeamLateralRows = 50u;  // 17
 const uint kSeamActive = 67u;       // number of active cells of the seam
-// for each active cell: a + 16 b, and from bit 8 on the number of triangles before this cell
+// one word for each active cell (a, b): a + 16 b and, from bit 8 on, the number of triangles before this cell
 const uint kSeamCells = 68u;
-const uint kSeamPlane = 324u;       // two words for each row b: the signs of the chunk's own samples on the face, with
-                                    // bit a
+const uint kSeamPlane = 324u;       // two words for each row b: bit a is the sign of the chunk's own sample (a, b) on
+                                    // the face
 const uint kSeamCountWords = 392u;
 
 // The header of the buffer `parts`. A record for each part follows.
@@ -71,8 +74,8 @@ const uint kHeadDispatch = 0u;  // three words for an indirect dispatch: numbers
 const uint kHeadCells = 3u;     // number of active cells of all bodies that fit into the buffers
 const uint kHeadVertices = 4u;  // number of vertices of all parts that fit into the buffers
 const uint kHeadIndices = 5u;
-const uint kHeadSampled = 6u;   // three words for an indirect dispatch: one workgroup for each slice of a sampled item
-                                // (a box of samples, items.glsl)
+const uint kHeadSampled = 6u;   // three words for an indirect dispatch: one workgroup for each slice of an item that
+                                // has to be sampled (a box of samples, items.glsl)
 const uint kHeadEntries = 9u;   // number of entries in the list of vertices by brick (a box of 8^3 samples, items.glsl)
 const uint kHeadUnits = 10u;    // three words for an indirect dispatch: one workgroup for each unit of attributes (some
                                 // vertices whose attributes are computed together, items.glsl)
@@ -84,10 +87,10 @@ const uint kPartFirstVertex = 2u;  // index of the part's first vertex; kNoRoom:
                                    // and is not written
 const uint kPartFirstIndex = 3u;   // first index of the part; kNoRoom if the part does not fit
 const uint kPartHash = 4u;         // two words
-const uint kPartCells = 6u;        // for a body: number of its active cells; for a seam: number of its vertices on fine
-                                   // edges
-// for a body: first kNoRoom, after allocation the position of its first cell in the list of active cells; for a seam:
-// number of its vertices on coarse edges
+const uint kPartCells = 6u;        // for a body: number of its active cells; for a seam: number of its vertices on
+                                   // edges of the finer level
+// For a body: kNoRoom at first; after allocation, the position of its first cell in the list of active cells. For a
+// seam: the number of its vertices on edges of the coarser level.
 const uint kPartMiddle = 7u;
 
 // The sums over triangles, if requested; they follow the records of the parts. For each part: twice its area, the three

@@ -19,7 +19,7 @@ shared uint brick_entries;
 
 uvec2 signsOfRow(uint signs, uint row) { return scratch_pairs[signs / 2u + row]; }
 
-// Returns a mask of the samples lo to hi of a row: bits of a word for 32 samples, and of a word for the last sample.
+// Returns a mask of the samples lo to hi of a row. x: one bit for each of the samples 0 to 31; y: bit 0 for sample 32.
 uvec2 samplesOf(uint lo, uint hi) {
   uint upto = hi >= 31u ? 0xFFFFFFFFu : (2u << hi) - 1u;
   return uvec2(upto & ~((1u << lo) - 1u), hi == 32u ? 1u : 0u);

@@ -1,7 +1,8 @@
 // Computes bounds of the records of a program over boxes of positions, one box per invocation (field/prune_kernel.inl).
-// This file defines the forms that sweep.glsl expands. The including file must define the box lo..hi, and the bounds of
-// the field and of what its layers add and cut (field, adds, cuts, add_high, cut_high). The macros MARK and MARK_WHOLE
-// receive the value that decides whether the current record stays, MARK_LAYER the values that decide it within a layer.
+// This file defines the forms that sweep.glsl expands. The including file must define the box lo..hi, the bounds of the
+// field (field), and the bounds for the additions and the cuts of its layers (adds, cuts, add_high, cut_high). It must
+// also define three macros, which receive the results. MARK and MARK_WHOLE: the values that decide whether the current
+// record stays in the pruned program. MARK_LAYER: the values that decide this within a layer.
 
 const float kNever = 3.0e38f;
 const uint kMaxLayers = 64u;
@@ -15,7 +16,7 @@ void setSlot(uint slot, Bounds b) {
   high[slot] = b.hi;
 }
 
-// Returns bounds of the value that an instruction adds to a sum: addend() of addend.glsl for bounds.
+// Returns bounds of the value that an instruction adds to a sum: the counterpart of addend() in addend.glsl.
 Bounds addendBounds(Bounds a, Bounds b, uint P) {
   if ((kKindsHigh & kSomeMorphs) != 0u) {
     const Bounds by = makeBounds(PF(P, kByWord), PF(P, kByWord));
@@ -32,7 +33,7 @@ Bounds addendBounds(Bounds a, Bounds b, uint P) {
 #define BOX makeBox(place_low[place], place_high[place])
 #define SIZES uintBitsToFloat(wordOfRecord(30u))
 #define MIDDLE_OF(axis) middleOf(place_low[place].axis, place_high[place].axis)
-#define SAMPLES makeBounds(PF(P, 11), PF(P, 12))  // range of the samples of a lattice
+#define SAMPLES makeBounds(PF(P, 11), PF(P, 12))  // bounds of the values of a lattice's samples
 #define OPERANDS(a, b, c) setSlot(dst, operandBounds(number, a, b, c, PF(P, 0), PF(P, 1)));
 #define NONE makeBounds(0.0f, 0.0f)
 #define FORM_CONSTANT(F) OPERANDS(NONE, NONE, NONE)
@@ -146,7 +147,8 @@ Bounds addendBounds(Bounds a, Bounds b, uint P) {
     }                                                                         \
   }
 // A smooth union blends over a width k. If the group's value is at least k, and not less than the field, the field
-// keeps its bits. If the same holds with field and group exchanged, the group replaces the field.
+// stays the same, bit for bit. If the field is at least k and greater than the group's value, the group replaces the
+// field.
 #define FORM_SMOOTH                                                                                   \
   {                                                                                                   \
     GROUP                                                                                             \

@@ -1,4 +1,4 @@
-// A box of whole positions, in the form that common/bounds.h requires.
+// A box of integer positions, in the form that common/bounds.h requires.
 struct Box3 {
   int lo_x, lo_y, lo_z, hi_x, hi_y, hi_z;
 };

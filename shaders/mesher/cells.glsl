@@ -7,7 +7,8 @@
 struct ActiveCell {
   uint cell_case;
   uvec4 first; // for each row: number of the first vertex
-  uvec3 owned; // for each row: crossed edges of two samples; of row 3, a cell uses only the x-edge of sample x
+  // for rows 0 to 2: crossed edges from samples x and x + 1; in row 3, the cell's only edge is the x-edge from sample x
+  uvec3 owned;
   uint index;   // position of the cell's first index in the part
   uint part;
 };

@@ -9,9 +9,10 @@ layout(local_size_x = 64) in;
 #include "mesher/edges.glsl"
 #include "mesher/scan.glsl"
 
-const uint kPairs = 545u;       // number of pairs of rows in a chunk
-const uint kPairsInRun = 9u;    // pairs of rows per invocation; 64 runs of this length contain all pairs
-const uint kPairsToPlane = 16u; // distance from a pair of rows to the pair in the next plane, 32 or 33 rows later
+const uint kPairs = 545u;       // number of pairs of successive rows of samples in a chunk
+const uint kPairsInRun = 9u;    // pairs of rows that each invocation processes; 64 invocations cover all pairs
+const uint kPairsToPlane = 16u; // The first row of pair p has its neighbour in the next plane 33 rows later, in pair p
+                                // + kPairsToPlane.
 
 // Returns the number of triangles in a row of cells, for 32 cells at once. The cells lie between the rows of samples a,
 // b (next in y), c (next in z) and d (next in both). If a cell has E crossed edges in L loops, it has E - 2 L
@@ -45,7 +46,7 @@ Row countRow(uint r, uvec2 a, uvec2 b, uvec2 c, uvec2 d) {
   return Row(uvec4(vertex_count, 3u * triangles, bitCount(live), min(live, 1u)), live);
 }
 
-// Returns the signs of two rows. Beyond the last row the result is not used.
+// Returns the signs of a pair of rows. For a pair beyond the chunk, the caller does not use the result.
 uvec4 signPair(uint signs, uint pair) { return scratch_fours[signs / 4u + min(pair, kPairs - 1u)]; }
 
 void writeRow(uint rows, uint r, Row row, inout uvec4 before) {

@@ -40,8 +40,9 @@ void main() {
   if (i < kCoarseSide) coarse[i] = scratch[batch[record + kSeamSigns] + i];
   barrier();
 
-  // numbers of vertices of the fine, the coarse and the lateral row; w: number of triangles and, from bit 16 on, of
-  // active cells
+  // Counts of one invocation. x, y, z: numbers of vertices in its row: on edges of the fine level, on edges of the
+  // coarse level, and on lateral edges (between the levels). w: number of triangles in its cells; from bit 16 on,
+  // number of active cells.
   uvec4 own = uvec4(0u), before, sum;
   if (i < kSide) own.x = verticesOf(fineEdges(fine[i], fine[i + 1u], i));
   if (i < kCoarseSide) {

@@ -23,7 +23,7 @@ uint verticesOf(RowEdges e) { return bitCount(e.x) + bitsOf(e.y) + bitsOf(e.z); 
 // Returns a mask of the samples before x, 0 <= x <= 32, in the first word of a row.
 uint bitsBefore(uint x) { return x < 32u ? (1u << x) - 1u : 0xFFFFFFFFu; }
 
-// Returns the number of vertices on edges that start at samples before x.
+// Returns the number of crossed edges (each has one vertex) that start at the row's samples before sample x.
 uint verticesBefore(RowEdges e, uint x) {
   uint before = bitsBefore(x);
   return bitCount(e.x & before) + bitCount(e.y.x & before) + bitCount(e.z.x & before);

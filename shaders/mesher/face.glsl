@@ -23,7 +23,8 @@ uvec3 pointOf(uint face, uint u, uint v, uint high) {
   return axis == 0u ? uvec3(w, u, v) : axis == 1u ? uvec3(v, w, u) : uvec3(u, v, w);
 }
 
-// Return the crossed edges of a row of the face: of the chunk's own (fine) samples, or of the coarser level's.
+// Return the crossed edges of a row of the face: fineEdges() for the chunk's own (fine) samples, coarseEdges() for the
+// samples of the coarser level.
 RowEdges fineEdges(uvec2 row, uvec2 above, uint b) { return crossedEdges(row, above, uvec2(0u), b, kCells); }
 RowEdges coarseEdges(uint row, uint above, uint b) {
   return RowEdges((row ^ row >> 1) & 0xFFFFu, b + 1u < kCoarseSide ? uvec2(row ^ above, 0u) : uvec2(0u), uvec2(0u));

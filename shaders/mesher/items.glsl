@@ -1,15 +1,15 @@
-// Items are boxes that are pruned, sampled and given attributes as a whole. An item is a brick of a chunk, which has
-// 8^3 samples, and one more layer on the chunk's high faces; or the plane of a seam, once with the chunk's own field
-// and once with the coarser level's.
+// Items are boxes of samples that are pruned, sampled and given attributes as a whole. An item is either a brick or a
+// plane. A brick contains 8^3 samples of a chunk, and one more layer of samples on the chunk's high faces. A plane
+// contains the samples of a seam; there is one plane for the chunk's own field and one for the coarser level's field.
 
 const uint kBricks = 64u;      // number of bricks in a chunk, x fastest
 const uint kBrickSamples = 8u;
 const uint kItemWords = 8u;
-const uint kItemList = 0u;     // offset in `scratch` of the item's list of records
-const uint kItemCount = 1u;    // length of this list; 0 for a uniform brick
+const uint kItemList = 0u;     // offset in `scratch` of the list of records that the item's pruned program consists of
+const uint kItemCount = 1u;    // number of records in this list; 0 for a uniform brick
 const uint kItemFlags = 2u;
-const uint kItemInitial = 3u;  // initial value of the field if all records are removed, as float bits; its label
-                               // follows
+const uint kItemInitial = 3u;  // initial value of the field if pruning removes all records, as float bits; the next
+                               // word is the value's label
 const uint kItemLabel = 4u;
 const uint kItemScale = 5u;    // factor from units to quantised values Q, as float bits
 const uint kItemOwner = 6u;    // offset in `batch` of the chunk's record (for a brick) or of the seam's record (for a
@@ -33,7 +33,8 @@ uvec3 lastOfPart(uint b, uint part) {
   return first + 4u - uvec3(lessThan(first, uvec3(28u)));
 }
 
-// An entry in a list of records: the record's offset, in units of 32 words, and how pruning has changed the record.
+// An entry in a list of records: the record's offset, in units of 32 words, and one of the following values, which says
+// how pruning has changed the record.
 const uint kKept = 0u;
 // only the first operand is left, so the record is a copy; for a fold (a record that joins a group of shapes to its
 // layer): the influence box need not be tested
@@ -42,8 +43,9 @@ const uint kSecondAlone = 2u;
 
 #include "mesher/record_header.h"
 
-// Flags of a fold, which joins a group of shapes to its layer (in its seventh parameter word). Bit 0: the group is cut;
-// bit 1: its influence box must be tested; kEndsLayer: the record is not a group, but the end of its layer.
+// Flags of a fold, the record that joins a group of shapes to its layer. They are in its seventh parameter word. Bit 0:
+// the group is cut out of the layer; bit 1: the group's influence box must be tested; kEndsLayer: the record is not a
+// group, but the end of a layer.
 const uint kEndsLayer = 4u;
 
 // A pruning job: one program, and all boxes for which it is pruned.
@@ -57,7 +59,8 @@ const uint kJobFirstSeam = 4u;
 const uint kJobSeams = 5u;
 const uint kJobLists = 6u;    // offset in `scratch` of the lists of records that stay: one per box, with space for all
                               // records
-const uint kJobInitial = 7u;  // initial value of the field, as float bits; its label and the factor to Q follow
+const uint kJobInitial = 7u;  // initial value of the field, as float bits; the next two words: its label, and the
+                              // factor from units to Q
 const uint kJobLabel = 8u;
 const uint kJobScale = 9u;
 
@@ -74,9 +77,9 @@ uint itemOfEntry(uint entry) { return entry & 0xFFFFFu; }
 uint sliceOfEntry(uint entry) { return entry >> 20 & 63u; }
 uint slicesOfEntry(uint entry) { return entry >> 26; }
 
-// A unit of attributes: the number of its item, its first vertex, and its number of vertices. The first vertex is, for
-// a brick, an index into the list of vertices by brick; for a plane, an index among the vertices that are evaluated
-// with the plane's field.
+// A unit of work of the passes that compute attributes: a range of the vertices of one item. It contains the number of
+// the item, the first vertex, and the number of vertices. For a brick, the first vertex is an index into the list of
+// vertices by brick; for a plane, an index among the vertices that are evaluated with the plane's field.
 const uint kUnitWords = 4u;
 uint verticesOfUnit(uint records, uint width) { return max(kMaxRounds / roundsOf(records), 1u) * width; }
 

@@ -17,7 +17,8 @@ uint trianglesOf(uint cell_case) {
   return hollow == 0x81u || hollow == 0x42u || hollow == 0x24u || hollow == 0x18u ? count - 4u : count;
 }
 
-// Reads the signs of three rows, starting with row r. Beyond the chunk the result is not used.
+// Reads the signs of three rows, starting with row r. For rows beyond the chunk, the result is arbitrary, and the
+// caller does not use it.
 void readRows(uint signs, uint r, out uvec2 a, out uvec2 b, out uvec2 c) {
   uint pair = signs / 4u + min(r, kRows - 2u) / 2u;
   uvec4 low = scratch_fours[pair], high = scratch_fours[pair + 1u];

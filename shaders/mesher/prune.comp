@@ -24,7 +24,8 @@ const uint kMaxRecords = 1024u;
 float mark[kMaxRecords];   // for each record: the value that decides whether it stays
 float whole_mark[kMaxRecords];
 float layer_add[64], layer_cut[64], layer_joined[64], layer_replaced[64];
-float nearest_high[64];     // for each slot: upper bound of the nearest operand of a round union
+float nearest_high[64];     // for each slot: upper bound of the nearest operand of the round union that is stored in
+                            // this slot
 
 #define MARK(value) mark[record_number] = value;
 #define MARK_WHOLE(value) whole_mark[record_number] = value;
@@ -113,7 +114,7 @@ void main() {
   uint begin = list_end;
   uvec2 live = uvec2(0u);  // mask of the slots whose values are needed
   uint live_places = 0u;
-  // true if a layer replaces everything: then the layers below it have no effect
+  // replaced: the current layer replaces the layers below it; below: a higher layer does so, so this one has no effect
   bool below = false, replaced = false;
   float limit_add = 0.0f, limit_cut = 0.0f, limit_joined = 0.0f;
   const bool listed = used && (!bricks || !(solid || empty));
@@ -165,7 +166,8 @@ void main() {
         replaced = keep && uint(w) >= 2u;
       }
 
-      // Before this record, the slot that it writes is not needed, but its operands are.
+      // The records are visited backwards, and `live` marks the slots whose values are needed later. Before this
+      // record, the old value of the slot that the record writes is not needed; the values of its operands are.
       if (keep && is_op && (traits & (kAddsTo | kMakesPlace)) == 0u) {
         live &= ~made;
         if ((traits & kBeginsTwo) != 0u) live &= ~second;
@@ -198,7 +200,7 @@ void main() {
     scratch[item + kItemLabel] = below || replaced ? 0u : batch[job + kJobLabel];
     scratch[item + kItemScale] = batch[job + kJobScale];
     scratch[item + kItemOwner] = bricks ? chunk : seam;
-    // refine.comp replaces this for items that are sampled
+    // for a sampled item, refine.comp replaces this word
     scratch[item + kItemParts] = (solid ? 0xFFu : 0u) | (empty ? 0xFF00u : 0u);
     // If only seams are requested, only the bricks at the seams' faces are sampled.
     const uint faces = batch[chunk + kChunkFaces];

@@ -3,10 +3,10 @@
 
 // The header of a record is one vector: the first two words of the record, its offset in units of 32 words, and these
 // flags.
-const uint kOperands = 3u;  // bits 0, 1: number of operands, up to the last one that the record reads
+const uint kOperands = 3u;  // bits 0, 1: number of operands; an unused operand before a used one is counted
 const uint kReadsPosition = 4u;
-const uint kBeginsTwo = 8u;  // the record initialises two values
-const uint kAddsTo = 16u;    // the record adds to two values
+const uint kBeginsTwo = 8u;  // the record sets the initial values of two registers
+const uint kAddsTo = 16u;    // the record adds to the values of two registers
 const uint kEndsRound = 32u;
 const uint kMakesPlace = 64u;
 const uint kChooses = 128u;  // pruning may reduce the record to one of its first two operands
@@ -17,15 +17,18 @@ const uint kIsFold = 1024u;
 const uint kIsSmooth = 2048u;
 const uint kIsLayerEnd = 4096u;
 
-// Words for additional parameters of a mix, a morph, or the value that is added to a sum. These ops have few parameters
-// of their own, so the words are free.
-const uint kByWord = 2u;         // constant parameter t of a mix or a morph, or of the morph that is added to a sum
+// Words of the record's header for additional parameters of a mix, of a morph, or of the value that a sum adds. These
+// ops have few parameters of their own, so the words are free.
+const uint kByWord = 2u;         // for a mix, a morph, or a sum that adds a morph: the constant value of the parameter
+                                 // t
 const uint kHowWord = 3u;        // word that contains these bits:
-const uint kHowByConstant = 1u;  // for a mix or a morph: t is kByWord, not the third operand
-const uint kHowMorphs = 2u;      // for a sum: adds the morph of its first and third operand
+const uint kHowByConstant = 1u;  // bit, for a mix or a morph: the parameter t is the constant in the word kByWord, not
+                                 // the third operand
+const uint kHowMorphs = 2u;      // bit, for a sum: the value that is added is the morph of the sum's first and third
+                                 // operands
 const uint kHowWeighs = 4u;      // for a sum: the value that is added is weighted by a kernel
 
 // Flags for a whole tape: which variants of instructions occur. They are stored in the upper word of the mask of kinds.
-const uint kSomeReadsThird = 0x80000000u;  // a mix or a morph takes its parameter t from an operand
-const uint kSomeMorphs = 0x40000000u;      // a sum adds a morph
-const uint kSomeWeighs = 0x20000000u;      // a sum weights the value that is added by a kernel
+const uint kSomeReadsThird = 0x80000000u;  // the tape has a mix or a morph that takes its parameter t from an operand
+const uint kSomeMorphs = 0x40000000u;      // the tape has a sum that adds a morph
+const uint kSomeWeighs = 0x20000000u;      // the tape has a sum that multiplies an added value by a kernel weight

@@ -128,7 +128,8 @@ void main() {
   EACH(Dual d = READ(ra); SLOT(dst) = opMinimum(READ(dst), d).v;    \
        SLOT(rb) = roundAccumulate(READ(rb), d, PF(P, 0)).v;)
 #define FORM_ROUND_END(F) EACH(SLOT(dst) = opRoundEnd(READ(ra), READ(rb), P).v;)
-// The operand with the largest weight is not tracked, because it only determines the label, which samples do not need.
+// The evaluation of attributes also tracks the operand of a sum with the largest weight, whose label the sum takes
+// (attributes.glsl). Samples need no labels, so this operand is not tracked here.
 #define FORM_SUM_BEGIN(F) EACH(SLOT(rb) = nothing().v;)
 #define FORM_SUM_ADD(F) EACH(SLOT(rb) = opAdd(READ(rb), addend(READ(ra), READ(rc), P)).v;)
 #define FORM_SUM_END(F) EACH(SLOT(dst) = opSumEnd(nothing(), READ(rb), P).v;)
@@ -159,7 +160,8 @@ void main() {
       int q = quantise(field[s], scale);
       bool solid = inside[s] && q < 0;
       if (inside[s]) scratch[target[s]] = uint(q);
-      // If rows have four samples, four successive invocations write the signs of one row together.
+      // Usually each invocation writes the sign of its own sample. If rows have four samples, the signs of four
+      // successive invocations form one row, and the first of the four invocations writes them all.
       const bool alone = plane || extent.x != 4u;
       const uint lane = gl_SubgroupInvocationID;
       const uvec4 ballot = subgroupBallot(solid);

@@ -17,8 +17,9 @@ int norm(ivec3 v) {
   return a.x + a.y + a.z;
 }
 
-// The best triangulation of the part of a loop between two points: the size of its smallest triangle, as large as
-// possible (-1 if the chord is forbidden); and the apexes of its triangles in pre-order, three bits each.
+// The best triangulation of the part of a loop between two points: of all its triangulations, it has the largest
+// smallest triangle. best: size of that smallest triangle; -1 if the chord between the two points is forbidden. apexes:
+// the apexes of the triangles in pre-order, three bits each.
 struct Piece {
   int best;
   uint apexes;

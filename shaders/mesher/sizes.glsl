@@ -9,7 +9,7 @@ layout(push_constant) uniform Sizes {
   uint chunk_count;
   uint jobs_at;      // offset in `batch` of the pruning jobs
   uint items_at;     // offset in `scratch` of the items, which are bricks and planes (items.glsl)
-  uint sampled_at;   // offset in `scratch` of the list of sampled items
+  uint sampled_at;   // offset in `scratch` of the list of items that have to be sampled
   uint vertices_at;  // offset in `scratch` of the list of vertices by brick
-  uint units_at;     // offset in `scratch` of the units of attributes
+  uint units_at;     // offset in `scratch` of the units: groups of vertices whose attributes are evaluated together
 };

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"
 
-const uint kSums = 5u;  // number of sums: area, three components of the cross product, six volumes
+const uint kSums = 5u;  // number of sums: twice the area, three components of the cross product, six times the volume
 shared uvec2 shares[kSums * gl_WorkGroupSize.x];
 
 uvec2 add(uvec2 a, uvec2 b) {
@@ -55,7 +55,7 @@ uint roundedRoot(uvec2 x) {
   return root + (subtract(x, square(root)).x > root ? 1u : 0u);
 }
 
-// Does the same as fixedRoot of mesh/triangle_terms.h.
+// Returns the square root of an integer in 1/4096, with the same bits as fixedRoot of mesh/triangle_terms.h.
 uvec2 fixedRoot(uvec2 squared) {
   const uint kLengthBits = 12u;
   uint bits = squared.y < 1u << 6 ? kLengthBits : squared.y < 1u << 18 ? kLengthBits / 2u : 0u;

@@ -1,12 +1,12 @@
-// One pass over the records in the window, in sweeps: for each kind of op in turn, processes all successive records of
-// that kind. Included in a function, for which the macros FORM_* are defined: for values, for values with gradients, or
-// for bounds. These macros may use dst, ra, rb, rc, place and P, and read words by PU.
+// Processes the records in the window once, in sweeps. A sweep goes through the kinds of op in turn; for each kind, a
+// loop processes all successive records of that kind. This file is included in a function, for which the macros FORM_*
+// are defined: for values, for values with gradients, or for bounds. These macros may use dst, ra, rb, rc, place and P,
+// and read parameter words by PU.
 //
-// Software Vulkan runs the body of a loop once even if no record is of its kind. Therefore ops that only combine values
-// share one loop, which saves time because they are short: READ_JOINED reads the operands, the form of the current op
-// sets the result, WRITE_JOINED stores it. For the same reason, a body that runs without a record reads zeroes: the
-// words of a record of another kind could be denormals when read as floats, each of which costs a processor a hundred
-// cycles.
+// Software Vulkan runs the body of such a loop once even if no record is of its kind. Ops that only combine values are
+// short, so to save time they share one loop: READ_JOINED reads the operands, the form of the current op sets the
+// result, WRITE_JOINED stores it. A body that runs without a record of its kind reads zeroes, because the words of
+// another record could be denormals when read as floats, and each denormal costs a processor a hundred cycles.
 
 #ifndef FORM_NOISE
 #define FORM_NOISE(F) FORM_POSITION(F)

@@ -1,8 +1,8 @@
 // How a shader stores a field program (backend/vulkan/tape.h): records are in a private array (the window), and the
-// current record is in registers, whose words are exchanged by subgroup shuffles. The reason is the costs on software
-// Vulkan. There, reading a buffer is a loop over the lanes, which takes hundreds of cycles, for one word as for four;
-// reading an array with a variable index is eight loads; and a shuffle is one instruction. On hardware all of this is
-// fast.
+// current record is in registers. Its words are spread over the lanes, which exchange them by subgroup shuffles. This
+// is fast on software Vulkan. There, reading a buffer is a loop over the lanes, which takes hundreds of cycles, for one
+// word as for four; reading an array with a variable index is eight loads; and a shuffle is one instruction. On
+// hardware, all of these operations are fast.
 //
 // Requires that all lanes of a subgroup are active, as in all control flow here, and that subgroups have at least 8
 // lanes.
@@ -11,9 +11,11 @@
 const uint kSlots = 65u;
 const uint kFarSlot = 64u;
 const uint kWindow = 128u;  // number of pieces of records in the window; a piece has 32 words
-uvec4 window[kWindow];      // pieces of records; of every 8 lanes, lane l stores the words 4 l to 4 l + 3 of each piece
-uvec4 record;               // the current record
-uvec4 own;                  // words of the record for the current op (sweep.glsl), or zeroes if there is none
+// pieces of records, 32 words each; in each group of 8 lanes, lane l (0..7) stores the words 4 l to 4 l + 3
+uvec4 window[kWindow];
+uvec4 record;               // this lane's four words of the current record
+// the words of `record` if that record has the kind of the current loop (sweep.glsl), otherwise zeroes
+uvec4 own;
 uint record_at;             // index of the current record in the window
 uint record_number;         // number of the current record in the list
 
@@ -22,7 +24,8 @@ uint wordOfRecord(uint i) {
   return subgroupShuffle(k == 0u ? own.x : k == 1u ? own.y : k == 2u ? own.z : own.w, i >> 2);
 }
 
-// Returns a parameter word whose number is not a constant: one of the first 28 words, or a word after the first 32.
+// Returns parameter word i of the current record, for an i that is not a compile-time constant. The first 28 parameter
+// words are the words 2 to 29 of the record; the others are its words from 32 on.
 uint farWord(uint i) {
   uint k = i < 28u ? i + 2u : i + 4u;
   uvec4 piece = window[record_at + (k >> 5)];

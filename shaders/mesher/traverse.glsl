@@ -1,5 +1,6 @@
 // Lists the triangles of a loop in pre-order, from the apexes of its chords. The chords that still have to be divided
-// are adjacent. They are stored as the point where the first one starts, and a bit for each point where one ends.
+// form a chain along the loop. The chain is stored as the index of the point where its first chord starts, and a mask
+// with one bit for each point where a chord ends.
 
 struct Chords {
   uint from, ends;

@@ -4,7 +4,8 @@ const uint kLongestLoop = 12u;
 
 struct Point {
   uint place;  // position of the point in the cell, ten bits per axis
-  uint rest;   // number of the vertex; from bit 16 on, the mask of faces on which its edge lies
+  // number of the point's vertex; from bit 16 on, mask of the cell faces on which the vertex's grid edge lies
+  uint rest;
 };
 
 Point packPoint(uvec3 place, uint faces, uint vertex) {
@@ -19,8 +20,9 @@ int measureOf(ivec3 a, ivec3 b, ivec3 c) {
   return n.x + n.y + n.z;
 }
 
-// Returns the apex of a chord's best triangle. A chord is stored in a word: the size of the smallest triangle in its
-// part of the loop, as large as possible, and the apex that achieves it in the lowest four bits.
+// Returns the apex of a chord's best triangle. A chord is stored in one word. Its lowest four bits are the apex. The
+// other bits are the size of the smallest triangle in the chord's part of the loop, which the best triangulation
+// maximises.
 uint apexOf(uint chord) { return chord & 15u; }
 int bestOf(uint chord) { return int(chord) >> 4; }
 
@@ -29,7 +31,8 @@ Point loop[kLongestLoop];
 uint chord[kLongestLoop * kLongestLoop];
 int total[kLongestLoop * kLongestLoop];  // for each chord: minimum total area of the triangles in its part of the loop
 
-// Computes the best triangulation for all chords of the loop of n points.
+// Considers a loop of n points. For each chord of the loop, computes the best triangulation of the part that the chord
+// cuts off.
 void cutLoop(uint n) {
   const int side = 0x7FFFFFF;  // larger than the size of any triangle
   const int never = 1 << 24;   // larger than the area of any loop

@@ -2,8 +2,8 @@
 
 const uint kEndOfWindow = 0xFFu;
 
-// Loads the list entries from..end; returns the first entry that did not fit. Each round reads a piece of a record, 32
-// words. Entries are read eight at a time, one per lane.
+// Loads the records of the list's entries from..end into the window. Returns the first entry whose record did not fit.
+// Each round reads one piece of a record, 32 words. Entries are read eight at a time, one per lane.
 uint fillWindow(uint from, uint end) {
   const uint lane = gl_SubgroupInvocationID & 7u;
   uint filled = 0u, at = from, base = from, piece = 0u, pieces = 1u;
@@ -18,16 +18,18 @@ uint fillWindow(uint from, uint end) {
       const bool first = piece == 0u;
       const bool alone_left = first && choice != kKept && kind < kOpCount;
       const uint alone = choice == kFirstAlone ? slots_word >> 8 & 0xFFu : slots_word >> 16 & 0xFFu;
-      // If a minimum is reduced to one operand, it stays a minimum, so that a series of minima is not interrupted: its
-      // remaining operand is used twice. If pruning has removed the operand that is united with a shape, the far
-      // slot (a constant far value) replaces it. Other reduced records become copies.
+      // Pruning can reduce a record to one operand. If the record is a minimum or a maximum, it keeps its kind and
+      // takes this operand twice, so that a series of equal ops is not interrupted. If the record unites a shape with
+      // an operand that pruning has removed, the far slot (a constant far value) replaces that operand. All other
+      // reduced records become copies.
       const bool unites = kind < kFirstJoin && choice == kSecondAlone;
       const bool copies = alone_left && kind != kOp_minimum && kind != kOp_maximum && !unites;
       if (alone_left && lane == 0u) {
         words.x = copies ? kOp_copy | 1u << 16 : words.x;
         words.y = (slots_word & 0xFFu) | alone << 8 | alone << 16;
       }
-      // For a fold (items.glsl), clears the flag for testing the influence box, in the record's ninth word.
+      // A record of a fold (items.glsl) has, in its ninth word, a flag that requests the test of the influence box.
+      // Clears this flag if pruning has reduced the record to its first operand.
       if (first && choice == kFirstAlone && kind >= kOpCount && lane == 2u) words.x &= ~2u;
       if (first) pieces = copies ? 1u : head >> 16;
       fits = fits && (!first || filled + pieces + 1u < kWindow);

@@ -14,7 +14,7 @@ const float kCloudBase = 1250.0;  // height of the clouds' base, in metres above
 const float kCloudDepth = 800.0;
 
 // Returns how far inside a cumulus cloud a position is, horizontally: 0 at the border, up to 1 in the middle, below 0
-// outside. If the result is certainly below `least`, returns an upper bound instead.
+// outside. If it is certainly below `least`, returns only an upper bound.
 float cumulusAt(vec2 at, float least) {
   vec3 p = vec3(at.x, 900.0, at.y) / 7300.0;
   float heap = -0.40, size = 0.55;
@@ -27,7 +27,7 @@ float cumulusAt(vec2 at, float least) {
   return heap;
 }
 
-// Returns the minimum of cumulusAt() at which there may be cloud at this height. share: height above the cloud's base,
+// Returns the value of cumulusAt() below which there is no cloud at this height. share: height above the cloud's base,
 // divided by the cloud's depth.
 float leastHeap(float share) { return 0.76 * share * share - 0.24; }
 
@@ -76,11 +76,11 @@ vec4 cumulus(CloudLayer layer, vec3 d, vec3 to_sun, vec3 sun_light, vec3 behind,
     for (int k = 0; k < kShort; ++k) {
       float part = float(k) / float(kShort), share = low + step_share * part, heap = mix(before, after, part);
       vec3 p = d * (begin + share * way);
-      // Sums up the density here, and then along the way to the sun.
+      // `density`: the density at this position. `deep`: the density summed up along the way to the sun.
       float density = 0.0, deep = 0.0;
       for (int j = 0; j < 3; ++j) {
         float ahead = j == 0 ? 0.0 : 22.0 * exp2(1.6 * float(j));
-        // For short distances, the outline of the cloud is assumed to be the same as here.
+        // The positions ahead are near, so the outline of the cloud there is assumed to be the same as here.
         float at = share + to_sun.y * ahead / kCloudDepth, other = j == 2 ? heap - 0.08 : heap;
         float one = cumulusDensity(p + to_sun * ahead, other, at, j == 0 ? 3 : 1);
         if (j == 0) density = one;

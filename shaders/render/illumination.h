@@ -2,8 +2,8 @@
 // visible surfaces; runtime/tools/render/light_tracer.cpp uses it for indirect light.
 
 // Returns the light of the sky in a direction, without the sun's disc: deep blue overhead, paler towards the horizon
-// because of the longer way through air, nearly white in the haze there, and brighter around the sun. Below the horizon
-// it is that of endless ground.
+// because of the longer way through air, nearly white in the haze there, and brighter around the sun. Below the
+// horizon, returns the light of endless ground.
 FN vec3 skyLight(vec3 d, vec3 to_sun) {
   float h = max(d.y, 0.0f), s = max(dot(d, to_sun), 0.0f);
   vec3 c = mix(vec3(0.085f, 0.21f, 0.49f), vec3(0.33f, 0.50f, 0.75f), exp(-3.0f * h));

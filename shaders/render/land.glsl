@@ -1,6 +1,6 @@
-// The land around the world. Where a region is cut off, its ground continues as a plane at the height of the region's
-// border, bare or with meadows and fields, with woods and hills in front of the horizon. frame.land contains the
-// parameters.
+// The land around the world. Beyond the border of the drawn region, the ground continues as a plane at the border's
+// height. The plane is bare, or it has meadows and fields; woods and hills stand in front of the horizon. frame.land
+// contains the parameters.
 
 // Applies aerial perspective to the colour of an object t metres away: air absorbs red light last, and adds blue light.
 // Haze is near the ground, so that visibility is better from high above.

@@ -13,7 +13,7 @@ vec3 random3(ivec3 c) { return vec3(scramble(uvec3(c)) >> 8) * (1.0 / 16777216.0
 vec3 gradientAt(ivec3 c) { return random3(c) * 2.0 - 1.0; }
 
 // Loops over the neighbours of a point are marked [[dont_unroll]]: drivers inline hundreds of calls of these functions,
-// and unrolling makes compilation by Mesa slow, the more so the larger the whole shader is.
+// and with unrolled loops, Mesa compiles slowly, especially large shaders.
 
 // Returns gradient noise, about -1..1, in x, and its derivative in yzw.
 vec4 noise(vec3 p) {

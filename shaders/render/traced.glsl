@@ -1,6 +1,6 @@
-// Light that ray tracing has found, for pixels and, filtered, for squares of pixels: see
-// runtime/tools/render/light_planes.h. Each sample interpolates it from neighbouring pixels that lie on the same
-// surface.
+// Light that ray tracing has found: for each pixel, and filtered for each square of 2 x 2 pixels
+// (runtime/tools/render/light_planes.h). Each sample interpolates this light from neighbouring pixels that lie on the
+// same surface.
 struct DirectLight { uvec2 open; uvec2 mirror; };
 struct SoftLight { vec4 light; vec4 lean; vec4 lie; };
 layout(std430, binding = 2) readonly buffer Direct { DirectLight direct[]; };
@@ -19,8 +19,8 @@ float kinship(ivec2 at, vec3 p, vec3 n, float apart) {
   return exp(-min(off, 30.0)) * pow(facing, 8.0) + 1e-6;
 }
 
-// Returns the four elements around a sample in a buffer with one element per `scale` x `scale` samples, and their
-// weights.
+// For a buffer with one element for each square of `scale` x `scale` samples: returns the indices of the four elements
+// around a sample, and their weights.
 void around(ivec2 at, int scale, ivec2 size, vec3 p, vec3 n, float apart, out ivec4 elements, out vec4 weights) {
   vec2 place = vec2(at) / float(scale), base = floor(place), f = place - base;
   float sum = 0.0;
@@ -71,7 +71,8 @@ Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
     traced.wet += weights[i] * max(-last.y, 0.0);
     traced.depth += weights[i] * max(last.y, 0.0);
   }
-  // Rays from the outermost leaves hit no surface, so nothing occludes them.
+  // None of the four pixels has a surface for which light was traced. This happens at the outermost leaves of foliage:
+  // treat them as not occluded.
   if (met < 1e-3) {
     traced.open[0] = traced.open[1] = vec4(1.0);
   } else {
@@ -102,8 +103,8 @@ vec3 softOn(Traced traced, vec3 n, vec3 turned) {
   return traced.light * clamp(1.0 + 1.5 * dot(traced.lean, turned - n), 0.25, 2.5);
 }
 
-// The light and the transmittance of clouds in front of a sample. At the edges of objects, it is interpolated only from
-// pixels whose first sample is about as far away.
+// The light and the transmittance of clouds in front of a sample, interpolated from neighbouring pixels. At the edges
+// of objects, only pixels whose first sample is about as far away as this sample count.
 struct Clouds {
   vec3 light;
   float through;

@@ -74,7 +74,7 @@ void weatherStreet(inout Surface s, Spot at, uint pattern, vec3 lie, vec3 patchy
   float stain = step(spot.lot.x, 0.30) * (1.0 - smoothstep(0.4 * wide, wide, length(spot.within) + 0.12 * patchy.z));
   s.albedo *= 1.0 - 0.42 * stain * (0.6 + 0.4 * spot.lot.z);
   if (pattern != kAsphalt) return;
-  // Above pipes the asphalt was replaced, in rectangles with a border of tar.
+  // Where pipes lie under the street, the asphalt was replaced, in rectangles with a border of tar.
   Block cut = blockAt(q + 0.03 * patchy.zy, vec2(5.2, 3.4), 0.37, 0.3, 0.05);
   vec2 half_size = vec2(0.9 + 1.1 * cut.lot.y, 0.5 + 0.8 * cut.lot.z);
   vec2 outside = abs(cut.within + vec2(0.3, -0.2)) - half_size;
@@ -136,7 +136,7 @@ void weather(inout Surface s, Spot at, uint pattern, vec3 lie, bool green) {
   } else if (street) {
     weatherStreet(s, at, pattern, lie, patchy);
   } else {
-    // Painted surfaces are washed more often.
+    // Painted surfaces have a small relief. They are washed more often than others, so they weather less.
     Surface worn = s;
     bool flakes = isOf(1u << kPlain, pattern) && at.relief >= 0.9 && at.relief <= 1.1;
     weatherWall(worn, at, lie, patchy, clamp(0.2 + 0.8 * at.relief, 0.0, 1.0), flakes);

@@ -25,9 +25,9 @@ float opticalDepth(vec3 from, vec3 direction) {
   return depth * frame.corner.w;
 }
 
-// Returns the share of the sky's light that reaches a place. Skylight has been scattered so often that it is absorbed
-// as slowly as the third octave in scattered(). It is traced straight up and to four sides, because a single direction
-// would cause streaks.
+// Returns the share of the sky's light that reaches a place. Skylight has been scattered many times, so it is absorbed
+// slowly: like the third octave (order of scattering) in scattered(). It is traced straight up and to four sides,
+// because a single direction would cause streaks.
 float skyShare(vec3 place) {
   float sum = 0.0;
   const vec3 kFrom[] =
@@ -36,8 +36,8 @@ float skyShare(vec3 place) {
   return sum / float(kFrom.length());
 }
 
-// True if a place with density may read this point of the light volume, alone or by interpolation: march.comp reads
-// points up to one and a half points away.
+// True if march.comp may read this point of the light volume to light a place that has density: it reads points up to
+// 1.5 point distances away from the place on each axis.
 bool isSeen(vec3 place, vec3 apart) {
   ivec3 lo = brickAt(place - 1.5 * apart), hi = brickAt(place + 1.5 * apart);
   for (int i = 0; i < 8; ++i) {

@@ -13,8 +13,8 @@ layout(binding = 4) uniform sampler3D lit_volume;
 layout(std430, binding = 5) writeonly buffer Light { vec4 light[]; };  // light for each pixel; w: transmittance
 
 const float kStep = 0.7;     // length of a step in cells
-const float kOpaque = 0.004;  // transmittance at which a ray ends: less than half a step of 8 bits is visible through
-                              // the volume
+const float kOpaque = 0.004;  // transmittance at which a ray ends: less than half an 8-bit brightness step is visible
+                              // through the volume
 
 // Returns the light that a place sends to the eye. turn: random numbers 0..1, which shift the place where the light
 // volume is read by up to half a point in each direction; otherwise the cells of the light volume would be visible.
@@ -62,7 +62,7 @@ vec4 march(vec3 view, ivec2 turn) {
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(pixel, frame.picture.xy))) return;
-  // Rays are on a grid within the pixel; one of them goes through the pixel's middle.
+  // The rays of a pixel go through the middles of side * side equal squares of the pixel.
   int side = int(frame.picture.z);
   vec4 sum = vec4(0.0);
   for (int i = 0; i < side * side; ++i) {

@@ -4,10 +4,10 @@
 layout(std140, binding = 0) uniform Frame {
   vec4 eye;         // w: exposure
   vec4 forward;     // view direction; w: distance in metres after which haze has absorbed about two thirds of the light
-  vec4 right;       // to the right in the picture, half the picture's width at distance 1 long; w: extinction per metre
-                    // at density 1
-  // upwards in the picture, half the picture's height at distance 1 long; w: albedo, the share of light that is
-  // scattered and not absorbed
+  vec4 right;       // vector to the right in the picture, whose length is half the picture's width at distance 1; w:
+                    // extinction per metre at density 1
+  // vector upwards in the picture, whose length is half the picture's height at distance 1; w: albedo, the share of
+  // light that is scattered and not absorbed
   vec4 up;
   vec4 sun;         // direction to the sun; w: mean cosine of the phase function
   vec4 corner;      // position of the volume's first point; w: distance between points
@@ -49,8 +49,8 @@ bool isEmpty(ivec3 brick) {
   return bricks[(brick.z * count.y + brick.y) * count.x + brick.x] == 0u;
 }
 
-// Returns a distance from t along the ray within which there is certainly no density; 0 inside a brick that has
-// density.
+// Returns the length of a stretch of the ray, from the parameter t on, in which there is certainly no density. Returns
+// 0 if t lies in a brick that has density.
 float emptyAhead(vec3 from, vec3 d, float t) {
   ivec3 brick = brickAt(from + d * t);
   if (!isEmpty(brick)) return 0.0;

@@ -5,8 +5,8 @@ extends DemoPlace
 
 ## The player begins in the hall nearest to this place.
 const MIDDLE := Vector3(30.0, 0.0, 30.0)
-## Path of the journal with the digs in a seed's cave. Another grammar, cell size (here in mm) or other parameters make
-## another cave, so they are part of the name.
+## Path of the journal that stores the player's digs in one cave. The name contains everything that determines the cave:
+## the seed, the cell size in mm, and a hash of the grammar and its parameters.
 const JOURNAL := "user://cave_%d_%dmm_%08x.journal"
 ## Maximum distance in metres from the eyes at which the player can dig and build.
 const REACH := 14.0
@@ -28,7 +28,7 @@ var fog := false:
 var _edits: Array[PackedInt64Array] = []
 var _rest := 0.0
 var _growing := false
-## False until the mouse button whose click has captured the mouse is released, so that this click does not dig.
+## False until the user releases the mouse button whose click captured the mouse, so that this click does not dig.
 var _armed := false
 
 
@@ -122,7 +122,7 @@ func save() -> void:
 		overlay.say("The digs cannot be saved: see whether the disk has room", 6.0)
 
 
-## Replaces the cave by that of another seed, while a curtain hides the picture. A coroutine.
+## Replaces the cave by the cave of another seed, while a curtain hides the picture. A coroutine.
 func grow(new_seed: int) -> void:
 	if _growing:
 		return

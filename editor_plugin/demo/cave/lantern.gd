@@ -1,7 +1,7 @@
 extends Node3D
 ## A lantern on the ground of a hall, some steps from the player's starting place.
 
-## Distance in metres from the anchor at which ground for the lantern is searched.
+## Horizontal distance in metres from the hall's anchor to the place where the lantern looks for ground.
 const WAY := 5.5
 const DIRECTIONS := 12
 const DEEPEST := 4.0
@@ -13,8 +13,8 @@ func _ready() -> void:
 		return
 	var best := Vector3.INF
 	for i in DIRECTIONS:
-		# Directions differ by the golden angle and depend on the hall, so lanterns are on different sides of their
-		# halls.
+		# Successive directions differ by the golden angle. The first one depends on the hall's position, so that
+		# lanterns stand on different sides of their halls.
 		var ahead := Vector3.FORWARD.rotated(Vector3.UP, 2.4 * i + global_position.x)
 		var hit := world.ray_cast(global_position, ahead, WAY + 1.5)
 		if not hit.is_empty():

@@ -8,20 +8,21 @@ const BLADES := 14
 const WIDTH := 0.4
 ## Microseconds of each frame that the search for ground may take.
 const BUDGET := 1200
-## Metres above and below the camera within which ground is searched.
+## Ground is searched from this many metres above the camera, over a depth of DEPTH metres.
 const ABOVE := 14.0
 const DEPTH := 40.0
 const STEEPEST := 0.72
 ## Metres that the camera moves before tufts are added and removed.
 const STEP := 2.0
-## Radius of the planted area and tufts in a cell, for machines with a graphics card.
+## For machines with a graphics card: the radius of the planted area in metres, and the number of tufts in a cell.
 const FINE_RADIUS := 30.0
 const FINE_TUFTS := 13
 
 @export var world: SgmWorld3D
 @export var materials: Array[String] = ["grass"]
 @export var radius := 20.0
-## Metres between two points at which the ground is searched; between them, its height is interpolated by the slope.
+## Edge of a cell in metres. The ground is searched at the middle of each cell; its slope there gives the height at all
+## other points of the cell.
 @export var spacing := 0.9
 @export var tufts_in_cell := 7
 

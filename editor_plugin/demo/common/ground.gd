@@ -2,14 +2,15 @@ class_name DemoGround
 extends RefCounted
 ## Finds places in a world where a person can stand. Queries the world's field, so that nothing need be drawn for it.
 
-## Half the edge of the box that is searched for anchors first; it is doubled until anchors are found.
+## Half the edge, in metres, of the first box in which anchors are searched; the box grows by factors of 2 until it
+## contains anchors.
 const FIRST_REACH := 400.0
 const LAST_REACH := 3200.0
 ## Free height above the feet that a person needs, metres.
 const HEADROOM := 2.2
 ## Number of directions that are tried to find the widest view.
 const DIRECTIONS := 24
-## Maximum depth in metres of the ground below the anchor in a passage; deeper ground belongs to the hall.
+## Ground less than this many metres below a hall's anchor is the ground of a passage; lower ground is that of the hall.
 const PASSAGE_HEIGHT := 5.5
 ## Distance in metres from the beginning of a passage to the starting place.
 const MOUTH := 4.0
@@ -30,9 +31,10 @@ static func below(world: SgmWorld3D, place: Vector3, length := 64.0) -> Vector3:
 	return place if hit.is_empty() or hit.inside else hit.position
 
 
-## Returns the transform of the player's starting place, for any seed and parameters. Near the anchor of [param kind]
-## that is nearest to [param around], it is in the beginning of the longest passage that leads away from the anchor;
-## without a passage, on the ground below the anchor. Without such an anchor, it is the ground below [param around].
+## Returns the transform of the player's starting place, for any seed and parameters. The function takes the anchor of
+## [param kind] in free space that is nearest to [param around]. The place is in the beginning of the longest passage
+## that leads away from this anchor, or on the ground near the anchor if there is no passage. If there is no such
+## anchor, the place is the ground below [param around].
 static func start(world: SgmWorld3D, kind: String, around: Vector3) -> Transform3D:
 	var reach := FIRST_REACH
 	while reach <= LAST_REACH:

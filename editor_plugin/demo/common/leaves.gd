@@ -4,7 +4,8 @@ extends MultiMeshInstance3D
 ## drawn surfaces with materials in [member materials] whenever the world becomes idle. Below them, the crowns
 ## themselves are drawn dark, as gaps between leaves.
 
-## Length of a leaf near the camera, metres, and its width as a share of the length. Needles are drawn in sprigs.
+## Size of a leaf near the camera: length in metres, and the width of leaves and of sprigs of needles as a share of the
+## length.
 const LENGTH := 0.085
 const WIDTH := 0.66
 const NEEDLES_WIDTH := 0.3
@@ -12,12 +13,12 @@ const NEEDLES_WIDTH := 0.3
 const GROWTH := 0.006
 ## Leaf area for each unit of surface area; the area of a leaf counts as the square of its length.
 const COVER := 2.2
-## Metres by which leaves stand out from a crown's surface, and metres below the surface at which others lie.
+## The roots of leaves lie between DEPTH metres below a crown's surface and REACH metres outside of it.
 const REACH := 0.15
 const DEPTH := 0.08
 const MOST := 450_000
-## Metres that the camera moves before leaves are placed again, and microseconds of each frame that placing them may
-## take.
+## Leaves are placed again when the camera has moved by this many metres. Placing them takes at most BUDGET microseconds
+## of each frame.
 const STEP := 15.0
 const BUDGET := 2000
 ## Number of floats for each instance: its transform, the direction out of the crown, and the brightness, which is below

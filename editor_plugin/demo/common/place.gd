@@ -9,7 +9,7 @@ const WELCOME := "Click to look around, F1 for help"
 const LONGEST_GROWTH := 120.0
 ## Seconds between two checks whether the player is buried in rock.
 const WATCH_SECONDS := 0.5
-## If the player falls this many metres below the last ground, the player is moved back.
+## A player who falls this many metres below the last ground on which they stood is moved back.
 const DEEPEST_FALL := 60.0
 
 @export var world: SgmWorld3D

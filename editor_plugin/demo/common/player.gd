@@ -1,7 +1,8 @@
 class_name DemoPlayer
 extends CharacterBody3D
-## The player, who walks where the world has reported that the ground has colliders, and flies anywhere. While the mouse
-## is captured, it turns the head. Scripts move the player with [method teleport], [method look] and [method fly_to].
+## The player. It can walk only where the world has reported colliders of the ground; it can fly anywhere. While the
+## mouse is captured, mouse movements turn the head. Scripts move the player with [method teleport], [method look] and
+## [method fly_to].
 
 ## Emitted when the player has passed all points given to [method fly_to].
 signal arrived
@@ -13,7 +14,8 @@ const MOUSE_TURN := 0.0022
 const STEEPEST_LOOK := deg_to_rad(89.0)
 ## Speed at which the head turns towards the direction of a route, 1/s.
 const ROUTE_TURN := 2.5
-## Frames for which the viewer is disabled after a teleport, so that the world checks again whether there is ground.
+## Number of frames for which the player's viewer is disabled after a teleport. When it is enabled again, the world
+## checks anew whether there is ground below the player.
 const VIEWER_REST := 2
 
 @export var flying := false:
@@ -80,7 +82,8 @@ func _unhandled_input(event: InputEvent) -> void:
 
 
 func _process(_delta: float) -> void:
-	# Frames are drawn between steps of the physics, so the head's position is interpolated between the last two steps.
+	# Frames are drawn between two steps of the physics, so the head's position is interpolated between the positions
+	# after the last two steps.
 	_head.global_position = _before.lerp(_now, Engine.get_physics_interpolation_fraction()) + Vector3.UP * EYE_HEIGHT
 	if _viewer_rest > 0:
 		_viewer_rest -= 1

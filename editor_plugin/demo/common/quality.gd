@@ -3,7 +3,7 @@ extends RefCounted
 ## Decides how much detail the machine can draw at a good frame rate.
 
 
-## For pictures and films, which are not drawn in real time: uses the full quality on any machine.
+## True: uses the full quality on any machine. Set for pictures and films, which are not drawn in real time.
 static var always_fast := false
 
 

@@ -7,7 +7,8 @@ extends MeshInstance3D
 ## Emitted when all volumes have been filled once.
 signal filled
 
-## Metres of full density that reduce sunlight to 1/e. Used for the second channel of the volumes.
+## Metres of full density that reduce sunlight to 1/e. The second channel of the volumes stores how much sunlight is
+## left at a point.
 const FADE := 250.0
 ## Metres from a cloud's surface inwards to its full density; the shader's noise erodes this edge.
 const EDGE := 110.0
@@ -82,7 +83,7 @@ func _take(i: int, corner: Vector3, bytes: PackedByteArray) -> void:
 	var texture := ImageTexture3D.new()
 	texture.create(Image.FORMAT_RG8, size.x, size.y, size.z, false, images)
 	_set_all(NAMES[i] + "_volume", texture)
-	# The volume extends from the centre of the first texel to the centre of the last one.
+	# The samples are at the centres of texels, so the volume's corner is half a texel before the first sample.
 	_set_all(NAMES[i] + "_corner", corner - Vector3.ONE * 0.5 * SPACINGS[i])
 	_set_all(NAMES[i] + "_size", Vector3(size) * SPACINGS[i])
 	if not _filled[i]:

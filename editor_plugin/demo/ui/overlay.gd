@@ -52,7 +52,7 @@ func fade(closed: bool) -> void:
 	await _fade_tween.finished
 
 
-## While the mouse is captured, it turns the head; otherwise it moves the sliders.
+## Captures or releases the mouse. A captured mouse turns the head; a released mouse moves the sliders.
 func capture_mouse(captured: bool) -> void:
 	Input.mouse_mode = Input.MOUSE_MODE_CAPTURED if captured else Input.MOUSE_MODE_VISIBLE
 	if captured:

@@ -38,7 +38,8 @@ uint32_t usageOf(int type) {
 Instance& of(void* instance) { return *static_cast<Instance*>(instance); }
 std::string textOf(const void* name) { return fromTyped(GDEXTENSION_VARIANT_TYPE_STRING_NAME, name).to<std::string>(); }
 
-/// Runs a callback for the engine, which cannot handle C++ exceptions.
+/// Runs a callback that the engine calls. Exceptions are caught and logged here, because the engine cannot handle C++
+/// exceptions; the result is then 0.
 template <class Function>
 auto guarded(const Function& function) noexcept -> decltype(function()) {
   try {
@@ -70,8 +71,9 @@ GDExtensionBool getProperty(void* instance, const void* name, void* result) {
 
 using Descriptions = std::vector<std::unique_ptr<Description>>;
 
-// Lists the properties. When the engine frees the list, it passes back only the pointer to it; the element before the
-// first one therefore points to the list's strings.
+// Lists the properties. When the engine frees the list, it passes back only the pointer to the list's first property.
+// So the array has one more element before that property, which points to the strings; thus the strings can be freed
+// too.
 const GDExtensionPropertyInfo* describe(const Instance& instance, uint32_t* count) {
   const std::vector<Instance::Property> properties = instance.properties();
   auto described = std::make_unique<Descriptions>();

@@ -5,8 +5,8 @@
 
 namespace sgm_godot {
 
-/// A dictionary, an array, or a packed array of numbers or strings. `type`: its engine type, which the C++ type Variant
-/// does not tell.
+/// A dictionary, an array, or a packed array of numbers or strings. All of these have the C++ type Variant, so `type`
+/// tells the engine's type.
 template <GDExtensionVariantType type>
 struct Typed {
   Variant value = Variant::ofType(type);
@@ -41,7 +41,7 @@ struct Conversion<std::vector<std::string>> {
   static constexpr int type = GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY;
   static std::vector<std::string> from(const Variant& value) {
     std::vector<std::string> texts;
-    // Both types are accepted, because the literal ["one", "two"] in a script is an untyped array.
+    // Accept an untyped array as well as a packed array: in a script, the literal ["one", "two"] is an untyped array.
     if (value.type() != GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY && value.type() != GDEXTENSION_VARIANT_TYPE_ARRAY)
       return texts;
     for (int64_t i = 0; i < value.size(); ++i) texts.push_back(value.call("get", i).to<std::string>());

@@ -7,8 +7,8 @@ namespace sgm_godot {
 
 struct Plugin;
 
-/// The C++ part of an engine object whose class this plugin registers. The engine creates and destroys it together with
-/// its own part.
+/// The C++ part of an engine object whose class this plugin registers. The engine creates and destroys this part
+/// together with the object's own part in the engine.
 class Instance {
  public:
   Instance(Plugin& plugin, Object self) : plugin_(plugin), self_(self) {}
@@ -24,14 +24,15 @@ class Instance {
   virtual bool set(const std::string& /*name*/, const Variant& /*value*/) { return false; }
   virtual bool get(const std::string& /*name*/, Variant& /*value*/) const { return false; }
 
-  /// Describes a property that was not registered with the class to the inspector.
+  /// Describes, to the inspector, a property that was not registered with the class.
   struct Property {
     std::string name;
     GDExtensionVariantType type = GDEXTENSION_VARIANT_TYPE_NIL;
     std::string class_name;
     uint32_t hint = 0;
     std::string hint_text;
-    uint32_t usage = 6;  // PropertyUsageFlags: stored in files and shown in the editor
+    uint32_t usage = 6;  // flags of the engine's enum PropertyUsageFlags; 6: the property is stored in files and shown
+                         // in the editor
   };
   virtual std::vector<Property> properties() const { return {}; }
   virtual Variant revertsTo(const std::string& /*name*/) const { return {}; }

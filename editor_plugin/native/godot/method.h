@@ -15,7 +15,8 @@ struct MethodShape {
   int result = -1;             // Variant type of the result; -1: none
 };
 
-/// Properties and calls of a method A... -> R of a class. C: the class, const if the method is const.
+/// Describes and calls a member function of class C with the argument types A... and the result type R. If the function
+/// is const, C is const too.
 template <class C, class R, class... A>
 struct MethodParts {
   static constexpr bool returns = !std::is_void_v<R>;

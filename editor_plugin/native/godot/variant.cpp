@@ -63,7 +63,7 @@ void writeTyped(const Variant& variant, Type type, void* place) {
     engine().variant_new_copy(place, variant.raw());
     return;
   }
-  // The empty value at `place` may own memory.
+  // Even an empty value at `place` may own memory, so destroy it before it is overwritten.
   if (engine().destructor[type] != nullptr) engine().destructor[type](place);
   engine().to_type[type](place, const_cast<void*>(variant.raw()));
 }

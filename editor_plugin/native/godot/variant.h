@@ -150,13 +150,15 @@ T Variant::to() const {
 
 /// Returns a method of an object as a value that can be connected to a signal.
 Variant callable(Object object, const Name& method);
-/// A copy of the value at `value`, which is of the engine's type `type`; NIL: a Variant.
+/// Returns a copy of the value at `value` as a Variant. `type`: the engine's type of that value; NIL: the value is a
+/// Variant itself.
 Variant fromTyped(GDExtensionVariantType type, const void* value);
-/// Replaces the value of the engine's type `type` at `place` by a variant of the same type; NIL: a Variant.
+/// Replaces the value at `place` by the value of `variant`. `type`: the engine's type of both values; NIL: the value at
+/// `place` is a Variant itself.
 void writeTyped(const Variant& variant, GDExtensionVariantType type, void* place);
 
-/// A packed array that is filled before anything else sees it. T: uint8_t, int32_t, int64_t, float, double, Vector2,
-/// Vector3, Color.
+/// A packed array of the engine that the plugin fills before it passes the array on as a Variant. T: uint8_t, int32_t,
+/// int64_t, float, double, Vector2, Vector3, Color.
 template <class T>
 class Packed {
  public:
@@ -164,7 +166,7 @@ class Packed {
   ~Packed();
   Packed(const Packed&) = delete;
   Packed& operator=(const Packed&) = delete;
-  T* data() { return data_; }  // the elements, to be written; null if size is 0
+  T* data() { return data_; }  // the array's elements, for writing; null if size is 0
   size_t size() const { return size_; }
   Variant take() const;  // the finished array; it must not be written to afterwards
 

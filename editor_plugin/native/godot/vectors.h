@@ -40,7 +40,7 @@ struct Transform {
            : i == 1 ? Vector3{rows[0].y, rows[1].y, rows[2].y}
                     : Vector3{rows[0].z, rows[1].z, rows[2].z};
   }
-  /// Returns the transform that applies `first`, and then this one.
+  /// Returns the transform that applies `first` and then *this.
   Transform after(const Transform& first) const;
   Vector3 apply(Vector3 v) const;
   Vector3 turn(Vector3 v) const;  // rotates and scales a vector without translating it

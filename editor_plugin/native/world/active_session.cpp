@@ -9,7 +9,7 @@ void ActiveSession::set(std::shared_ptr<Session> session) {
     const std::lock_guard lock(mutex_);
     placed_.session.swap(session);
   }
-  // The previous session is destroyed here, after the lock is released.
+  // The argument now holds the previous session. Its destructor destroys that session here, after the lock is released.
 }
 
 void ActiveSession::setOrigin(Vector3i origin) {

@@ -7,8 +7,8 @@
 
 namespace sgm_godot {
 
-/// The running session, and the position in its world (metres) that lies at the node's origin. Any thread may read
-/// them; only the main thread changes them.
+/// The running session, and its origin: the position in the session's world, in metres, that lies at the node's origin.
+/// Any thread may read both; only the main thread changes them.
 class ActiveSession {
  public:
   struct Placed {
@@ -18,7 +18,7 @@ class ActiveSession {
 
   void set(std::shared_ptr<Session> session);
   void setOrigin(Vector3i origin);
-  /// For the main thread only, which needs no lock to read.
+  /// Main thread only: this thread may read the session without a lock.
   const std::shared_ptr<Session>& current() const { return placed_.session; }
   /// Returns a consistent copy of session and origin. Thread-safe.
   Placed placed() const;

@@ -37,7 +37,8 @@ void AnchorScenes::place(const ActiveSession& active, double seconds) {
     } else if (node.object() != nullptr) {
       node.call("set_transform", described.get("transform"));
       scenes_[anchor.key] = {engine().object_get_instance_id(node.object()), anchor};
-      constexpr int64_t kInternalModeFront = 1;  // internal children are not saved with a scene
+      constexpr int64_t kInternalModeFront = 1;  // INTERNAL_MODE_FRONT of the engine's class Node: internal children
+                                                 // are not saved with a scene
       node_.call("add_child", node, false, kInternalModeFront);
     }
     if (std::chrono::duration<double>(Clock::now() - start).count() > seconds) return;

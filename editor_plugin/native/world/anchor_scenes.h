@@ -9,21 +9,22 @@
 
 namespace sgm_godot {
 
-/// Tracks the anchors in the drawn chunks of a world, and the scenes that the setting anchor_scenes instantiates at
-/// them. Main thread only.
+/// Tracks the anchors in the drawn chunks of a world, and the scene instances at these anchors. The property
+/// anchor_scenes tells which scene to instantiate at which anchor. Main thread only.
 class AnchorScenes {
  public:
   explicit AnchorScenes(WorldNode& node) : node_(node) {}
 
-  /// Processes the changes of a frame: announces anchors that appear and disappear, and removes the scenes of anchors
-  /// that disappear.
+  /// Processes the changes of a frame: queues signals for anchors that appear or disappear, and removes the scenes of
+  /// those that disappear.
   void follow(const std::vector<Picture::Change>& changes, const sgm_grammar* grammar);
-  /// Instantiates pending scenes for `seconds`, but at least one. A scene's scripts may do anything when it enters the
-  /// tree, such as end the session.
+  /// Instantiates pending scenes until `seconds` have passed, but at least one scene. When a scene enters the tree, its
+  /// scripts may do anything, for example end the session.
   void place(const ActiveSession& active, double seconds);
   /// Moves the scenes to the places of their anchors after the node or its origin has moved.
   void move(const sgm_grammar* grammar);
-  /// Removes all anchors and their scenes. Announces the removal if the node is in the tree.
+  /// Removes all anchors and their scenes. If the node is in the tree, also queues the signals that the anchors have
+  /// disappeared.
   void clear();
 
  private:

@@ -21,8 +21,8 @@ std::optional<int32_t> wholeUnits(double units) {
   return static_cast<int32_t>(std::lround(units));
 }
 
-/// Computes the metres of full density between each grid point and the sun, layer by layer from the top: the light of a
-/// layer comes through the layer above. `to_sun` points upwards.
+/// Computes, for each grid point, the metres of full density between the point and the sun. Works layer by layer from
+/// the top, since light reaches a layer through the layer above it. `to_sun` points upwards.
 class SunDepth {
  public:
   /// `spacing`: metres between neighbouring points of the sampled grid.
@@ -35,8 +35,8 @@ class SunDepth {
         above_(width_ * depth_),
         here_(width_ * depth_) {}
 
-  /// Processes the next lower layer, and returns its metres of density. `densities`: those of this layer; x varies
-  /// fastest; rows begin `pitch` bytes apart.
+  /// Processes the next lower layer. Returns, for each of its points, the metres of full density between the point and
+  /// the sun. `densities`: the densities of this layer; x varies fastest; rows begin `pitch` bytes apart.
   const std::vector<float>& lower(const uint8_t* densities, size_t pitch) {
     for (size_t z = 0; z < depth_; ++z) {
       for (size_t x = 0; x < width_; ++x) {

@@ -6,13 +6,13 @@
 namespace sgm_godot {
 namespace {
 
-constexpr int kMaxObstacles = 8;  // maximum number of other bodies between a viewer and its ground
+constexpr int kMaxObstacles = 8;  // maximum number of bodies between a viewer and its ground that the search skips
 constexpr float kDepth = 32;      // metres below a viewer within which ground is searched
 
 }  // namespace
 
-// A ray cast in the engine's physics decides, even if the world's field has ground here: without a collider, the viewer
-// would fall.
+// Only a ray cast in the engine's physics decides: even if the world's field has ground here, the viewer would fall
+// through it as long as it has no collider.
 bool hasGround(Vector3 position, const WorldNode& node, const Colliders& colliders, const Session& session) {
   const Aabb below{position - Vector3{1, kDepth, 1}, {2, kDepth, 2}};
   if (colliders.waitsIn(below)) return false;
@@ -30,7 +30,8 @@ bool hasGround(Vector3 position, const WorldNode& node, const Colliders& collide
     hit = space.call("intersect_ray", query);
   }
   if (hit.size() == 0 || hit.get("collider").object() != node.object) return false;
-  // Requires that the ray has hit the ground that the world's field has here, and not a collider farther below.
+  // The hit must be at the height of the ground in the world's field. Otherwise the ray has hit a collider farther
+  // below.
   const Vector3 ground = hit.get("position").to<Vector3>();
   const Placement placement = node.placement();
   const Units from = placement.toUnits(position);

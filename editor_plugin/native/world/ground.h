@@ -1,5 +1,5 @@
 #pragma once
-// Tests whether there is ground on which a viewer can walk.
+// Tests whether there is ground below a place, on which a viewer can walk.
 
 #include "colliders.h"
 #include "session.h"

@@ -4,8 +4,9 @@
 
 namespace sgm_godot {
 
-/// As a member, tells whether the object that contains it still exists. A function that runs scripts, which may destroy
-/// the object, calls watch() before, and checks the watch before it uses the object again.
+/// A member of this type lets functions find out whether the object that contains it still exists. A function that runs
+/// scripts calls watch() first, because scripts may destroy the object; afterwards it checks the watch before it uses
+/// the object.
 class Lifetime {
  public:
   Lifetime() = default;

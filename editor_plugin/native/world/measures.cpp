@@ -50,7 +50,7 @@ void addTriangles(const sgm_mesh_view& view, uint32_t seams, const int32_t base[
         return std::equal(&soup.positions[size_t{a} * 3], &soup.positions[size_t{a} * 3] + 3,
                           &soup.positions[size_t{b} * 3]);
       };
-      // Seams may have degenerate triangles without area, which are skipped.
+      // Skip degenerate triangles without area, which seams may contain.
       if (same(corner[0], corner[1]) || same(corner[1], corner[2]) || same(corner[0], corner[2])) continue;
       soup.indices.insert(soup.indices.end(), corner, corner + 3);
     }

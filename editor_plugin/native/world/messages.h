@@ -9,8 +9,8 @@
 
 namespace sgm_godot {
 
-/// The last error of a world, and its pending signals. Signals are emitted only when the work that they report is done,
-/// since a handler may end the world or start another one. Main thread only.
+/// The last error of a world, and its queued signals. A signal is emitted only when the work that it reports is done,
+/// since its handler may end the world or start another one. Main thread only.
 class Messages {
  public:
   /// `owner`: the object that emits the signals.

@@ -3,7 +3,7 @@
 namespace sgm_godot {
 namespace {
 
-/// The title of a figure in the debugger, and its key in the statistics.
+/// A figure that the engine's debugger shows: its title in the debugger, and its key in the world's statistics.
 struct Monitor {
   const char* title;
   const char* key;
@@ -30,7 +30,7 @@ void Monitors::add(Object node) {
   const Variant figure = callable(node, Name("_monitor"));
   for (const Monitor& m : kMonitors) {
     const std::string id = owner + "/" + m.title;
-    // another world whose node has the same name has registered this figure
+    // skip a figure that another world has already registered: its node has the same name
     if (server.call("has_custom_monitor", Name(id)).truth()) continue;
     const Variant arguments = Variant::array();
     arguments.append(m.key);

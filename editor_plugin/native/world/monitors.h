@@ -10,7 +10,7 @@ namespace sgm_godot {
 /// Registers the figures of a world that the engine's debugger plots. Main thread only.
 class Monitors {
  public:
-  /// Registers the figures of a node, whose method `_monitor` returns their values.
+  /// Registers the figures of a world node. The node's method `_monitor` returns their values.
   void add(Object node);
   void remove();
 

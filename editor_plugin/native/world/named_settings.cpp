@@ -36,11 +36,11 @@ Variant parameterValue(const sgm_parameter_info& info, double value) {
   return info.whole != 0 ? Variant(static_cast<int64_t>(std::llround(value))) : Variant(value);
 }
 
-/// Returns the inspector's hint for a parameter: a slider over its range, with its unit; where the grammar gives no end
-/// of the range, values beyond the slider are allowed.
+/// Returns the hint for a parameter in the inspector: a slider over its range, with its unit. If an end of the range is
+/// infinite in the grammar, values beyond that end of the slider are allowed.
 std::string rangeOf(const sgm_parameter_info& info) {
   const bool bounded = std::isfinite(info.minimum) && std::isfinite(info.maximum);
-  // The inspector shows angles in degrees, and expects their range in degrees too.
+  // The inspector shows angles in degrees, so the range that it gets is in degrees, too.
   const double unit = info.quantity == SGM_QUANTITY_ANGLE ? 180 / 3.14159265358979323846 : 1;
   const double low = std::isfinite(info.minimum) ? info.minimum * unit : -1e6;
   const double high = std::isfinite(info.maximum) ? info.maximum * unit : 1e6;
@@ -114,7 +114,8 @@ std::vector<Instance::Property> namedProperties(const Settings& settings, const 
     list.push_back(
         {std::string(kColors) + name, GDEXTENSION_VARIANT_TYPE_COLOR, "", kColorNoAlpha, "", kStored | kShown});
   }
-  // Values for names that the grammar lacks for now, for example while it has an error, are still saved with the scene.
+  // Also list names that the grammar lacks for now, for example while it has an error: their values are then saved with
+  // the scene.
   const auto keep = [&](std::string_view prefix, const std::string& name, GDExtensionVariantType type) {
     const std::string whole = std::string(prefix) + name;
     if (std::none_of(list.begin(), list.end(), [&](const Instance::Property& p) { return p.name == whole; }))

@@ -6,8 +6,9 @@
 
 namespace sgm_godot {
 
-/// The pictures of a world in the engine's scene: that of the running session, and the previous one until the current
-/// one has something to show. Each has its own materials. Main thread only.
+/// The pictures of a world, that is, the objects that draw it in the engine's scene. There are up to two: the picture
+/// of the running session, and the previous picture, which stays until the current one has chunks to show. Each has
+/// materials of its own. Main thread only.
 class Pictures {
  public:
   /// The names of the grammar's materials, and the settings that determine how materials look.
@@ -19,10 +20,10 @@ class Pictures {
 
   /// Removes and returns the picture that currently shows chunks: the current one or the previous one; may be null.
   std::unique_ptr<Picture> take();
-  /// Makes a picture that take() has returned the current one again.
+  /// Makes a picture that came from take() the current picture again.
   void giveBack(std::unique_ptr<Picture> picture) { current_ = std::move(picture); }
-  /// Starts a new, empty picture. `previous` stays in the scene until the new picture shows chunks. `look`: its slots
-  /// and materials are ignored.
+  /// Starts a new, empty picture. `previous` stays in the scene until the new picture shows chunks. `look` is the new
+  /// picture's look; its slots and materials are ignored.
   void begin(std::unique_ptr<Picture> previous, const Paint& paint, Look look);
   void clear();
   void dropPrevious() { previous_.reset(); }

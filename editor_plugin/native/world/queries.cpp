@@ -74,7 +74,7 @@ Points findPath(World& world, const Vector3& from, const Vector3& to, double rad
   std::copy_n(start.data(), 3, desc.from);
   std::copy_n(end.data(), 3, desc.to);
   desc.radius = radius;
-  // A margin around the box of both ends, for paths that are not straight.
+  // The search box is the box around both ends, enlarged by this margin, because the path need not be straight.
   const double edge = static_cast<double>(world.stage().session()->cellUnits()) * SGM_CHUNK_CELLS * 2;
   for (size_t axis = 0; axis < 3; ++axis) {
     desc.minimum[axis] = static_cast<int32_t>(std::max(std::min(start[axis], end[axis]) - edge, -2147000000.0));

@@ -32,8 +32,8 @@ void Stage::stop() {
 }
 
 void Stage::start(const GrammarOwner& grammar) {
-  // Only one world at a time can write a journal, so with a journal the previous session has to end before the new one
-  // starts.
+  // Only one world at a time can write a journal. If the settings name a journal, the previous session therefore ends
+  // before the new one starts.
   const bool is_exclusive = !node_.settings.journal.empty();
   std::unique_ptr<Picture> previous = pictures_.take();
   if (is_exclusive) {

@@ -9,7 +9,7 @@ namespace sgm_godot {
 
 class Colliders;
 
-/// Contains the parts of a world that exist while its session runs: pictures, colliders and the scenes of anchors,
+/// The parts of a world that exist while its session runs: pictures, colliders and the scenes of anchors, all of them
 /// streamed around viewers. Main thread only, except active().
 class Stage {
  public:
@@ -18,15 +18,15 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  /// Replaces the running session by one with the node's current settings, and announces the signal `restarted`. The
-  /// previous picture stays until the new one has something to show. On an error, which is reported, the running
-  /// session continues, unless it had to end first because of its journal.
+  /// Replaces the running session by a session with the node's current settings, and queues the signal `restarted`. The
+  /// previous picture stays until the new session has something to show. An error is reported; the running session then
+  /// continues, unless it had to end first because of its journal.
   void start(const GrammarOwner& grammar);
   void stop();
 
-  // The following functions change a running session.
+  // The following functions change the settings of a running session.
   void setField(const GrammarOwner& grammar);
-  /// Changes the materials. is_repacking: materials have other slots, so all meshes must be packed again.
+  /// Changes the materials. is_repacking: true if materials have other slots; all meshes are then packed again.
   void repaint(bool is_repacking);
   void followLook();
   void followPlacement();
@@ -38,7 +38,7 @@ class Stage {
   /// Blocks until everything around the viewers is drawn, but at most `seconds`. Returns false after the timeout or an
   /// error.
   bool waitUntilIdle(double seconds);
-  /// Does the work of a physics frame: announces viewers below which there is ground now.
+  /// Does the work of a physics frame: queues the signal `walkable` for each viewer that now has ground below it.
   void lookForGround();
 
   bool isRunning() const { return session() != nullptr; }
@@ -67,7 +67,7 @@ class Stage {
   Viewers viewers_;
   bool was_idle_ = false;
   bool was_scaled_ = false;
-  bool colliders_first_ = false;  // in the next frame, colliders are made before pictures
+  bool colliders_first_ = false;  // true: the next frame makes colliders first, and the drawn meshes after them
 };
 
 }  // namespace sgm_godot

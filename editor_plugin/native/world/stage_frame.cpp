@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr uint64_t kBytesAFrame = 4 << 20;
-// maximum number of pending uploads; at this number, no further events are taken from the runtime
+// maximum number of pending uploads; while there are as many, no events are taken from the runtime
 constexpr size_t kMaxWaiting = 512;
 
 }  // namespace
@@ -38,8 +38,8 @@ void Stage::stream(double delta, const std::function<double()>& seconds_left) {
     if (Failure failure = session()->update(kBytesAFrame, events)) node_.messages.fail(*failure);
     receive(events);
   }
-  // colliders_first_ is set if the previous frame had no time left for colliders: players must not fall through ground
-  // that is drawn.
+  // True if the previous frame had no time left for colliders. Colliders are then made first: players must not fall
+  // through ground that is drawn.
   const bool is_first = std::exchange(colliders_first_, false);
   if (is_first && colliders_) colliders_->advance(seconds_left(), viewers_.places());
   show(pictures_.current()->advance(seconds_left()));

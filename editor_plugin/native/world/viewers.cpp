@@ -8,9 +8,9 @@
 namespace sgm_godot {
 namespace {
 
-// metres per second; a viewer that moves faster counts as teleported, with no velocity
+// speed in metres per second; a viewer that moves faster counts as teleported, and gets the velocity 0
 constexpr double kFastest = 200;
-// metres in a frame; after a longer move, the ground below the viewer must be checked again
+// metres per frame; if a viewer moves farther, the ground below it is checked again
 constexpr float kLeap = 16;
 
 }  // namespace

@@ -22,8 +22,8 @@ class Viewers {
   /// `fov`: degrees.
   void setEditorView(const Transform& view, double fov);
 
-  /// Announces the signal `walkable` for each viewer that had no ground so far, if has_ground() returns true for its
-  /// position (scene coordinates).
+  /// Queues the signal `walkable` for each viewer that had no ground so far, and for whose position (in scene
+  /// coordinates) has_ground() now returns true.
   void lookForGround(const std::function<bool(Vector3 position)>& has_ground);
   void forgetGround();
 

@@ -15,7 +15,8 @@ constexpr int32_t kEnterTree = 10, kExitTree = 11, kInternalProcess = 25, kInter
 
 constexpr double kFileSeconds = 0.5;  // seconds between two checks whether the grammar's file has changed
 
-/// Whether two grammars have the same materials, tags and names, so that the numbers in vertices have the same meaning.
+/// Whether two grammars have the same materials, tags and names: the numbers of materials and tags in vertices then
+/// have the same meaning.
 bool sameNames(const sgm_grammar* a, const sgm_grammar* b) {
   const auto same = [&](auto count, auto name) {
     if (count(a) != count(b)) return false;
@@ -140,8 +141,8 @@ void World::start() {
   }
 }
 
-// Place and look are applied to the drawn world at once: the node's next frame may come after the player's, or never
-// while the game is paused.
+// Changes of the placement and the look apply to the drawn world at once. The node's next frame would be too late: it
+// may come after the player's frame, or never while the game is paused.
 void World::mark(unsigned effects) {
   unfollowed_ |= effects;
   if (effects & (Settings::kLook | Settings::kPlacement)) followPlace();

@@ -10,9 +10,9 @@ namespace sgm_godot {
 
 struct ClassRecord;
 
-/// The C++ part of an SgmWorld3D node: its stage, and the changes of settings that are not yet applied to the stage.
-/// Most methods for scripts are functions in edits.h, queries.h, density.h, measures.h and statistics.h. Main thread
-/// only, except Stage::active().
+/// The C++ part of an SgmWorld3D node: its stage (the running parts of the world), and the changes of settings that are
+/// not yet applied to the stage. Most methods for scripts are functions in edits.h, queries.h, density.h, measures.h
+/// and statistics.h. Main thread only, except Stage::active().
 class World : public Instance {
  public:
   World(Plugin& plugin, Object self);
@@ -62,7 +62,7 @@ class World : public Instance {
 
   WorldNode node_;
   Stage stage_;
-  unsigned unfollowed_ = Settings::kNothing;  // effects of changes that are not yet applied
+  unsigned unfollowed_ = Settings::kNothing;  // the effects of settings that have changed, but are not applied yet
   Monitors monitors_;
   FrameTimes times_;
   double since_file_ = 0;  // seconds since the last check of the grammar's file

@@ -7,7 +7,7 @@ const Dock := preload("res://addons/sgm/editor/dock.gd")
 const Gizmo := preload("res://addons/sgm/editor/gizmo.gd")
 const Preview := preload("res://addons/sgm/editor/preview.gd")
 const WINDOW := Vector2i(1600, 900)
-# Coarser than in the demo, so that the world becomes idle soon on software renderers.
+# A coarser world than in the demo, so that it becomes idle soon even on software renderers.
 const DETAIL := {&"cell_size": 0.8, &"finest_distance": 24.0, &"view_distance": 120.0, &"collision": false}
 
 var _checks := Checks.new()
@@ -179,8 +179,8 @@ func _press(text: String) -> void:
 	_checks.check(false, "there is a button " + text)
 
 
-# Returns the dock's own buttons. Buttons of its dialogs, which are also below it in the tree but in separate windows,
-# are left out.
+# Returns the dock's own buttons. Buttons of its dialogs are left out: they are below the dock in the tree, but belong
+# to separate windows.
 func _buttons() -> Array[Node]:
 	return _dock.find_children("*", "Button", true, false).filter(_is_in_dock)
 
@@ -204,8 +204,8 @@ func _save_picture() -> void:
 		light.free()
 
 
-# Adds a lamp at the camera, as the player has. Also adds a sun with energy 0, because for a scene without a sun the
-# editor adds its own, which would shine into the cave from outside.
+# Adds a lamp at the camera, like the player's. Also adds a sun with energy 0: for a scene without a sun the editor adds
+# a sun, which would shine into the cave from outside.
 func _lights() -> Array[Light3D]:
 	var sun := DirectionalLight3D.new()
 	sun.light_energy = 0.0

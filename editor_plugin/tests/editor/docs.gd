@@ -122,7 +122,7 @@ func _check_help(type: StringName, reference: Dictionary) -> void:
 	_checks.check(page != "", "the help of %s is shown" % type)
 	for entry: String in reference:
 		var words: String = reference[entry].text
-		# The page has no BBCode, so compare only the text before the first tag.
+		# The page shows formatted text without BBCode tags, so compare only the text before the first tag.
 		var start := words.strip_edges().get_slice("[", 0).get_slice("\n", 0).strip_edges()
 		_checks.check(start.length() < 5 or start in page, "the help of %s has '%s'" % [type, start])
 		_checks.check(entry == "" or entry.get_slice(" ", 1) in page, "the help of %s names '%s'" % [type, entry])

@@ -134,8 +134,8 @@ func _check_world_property() -> void:
 	grammar.text = BROKEN
 	await _frames(5)
 	_checks.check(_panel().lines().size() == 2, "a world's grammar property has the error above it")
-	# When the grammar unfolds in the inspector, the engine also passes it to the plugin, which must not open its text
-	# then.
+	# When the grammar is unfolded in the inspector, the engine passes it to the plugin. The plugin must not open its
+	# text in this case.
 	EditorInterface.set_main_screen_editor("3D")
 	var pickers := EditorInterface.get_inspector().find_children("*", "EditorResourcePicker", true, false).filter(
 			func(picker: EditorResourcePicker) -> bool: return picker.edited_resource == grammar)

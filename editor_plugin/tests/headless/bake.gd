@@ -41,7 +41,7 @@ func _initialize() -> void:
 	await cave.enter()
 	_refusals()
 	_checks.check(await cave.settle(), "the world comes to rest")
-	# Builds something of a second material.
+	# Builds something of a second material, so that the surface has two.
 	var floor_hit: Dictionary = _world.ray_cast(cave.viewer.global_position, Vector3.DOWN, 60)
 	_checks.equal(_world.build(floor_hit.position, 3.0, "calcite").size(), 2, "building")
 	if _checks.check(await cave.settle(), "what was built is drawn"):
@@ -105,7 +105,7 @@ func _scene() -> void:
 	scene.free()
 
 
-# Checks that front faces, which are clockwise, and normals point to the side without rock.
+# Checks that the normals and the front faces (clockwise triangles) point to the side without rock.
 func _sides(scene: Node3D) -> void:
 	var agreement := 0.0
 	var count := 0
@@ -164,8 +164,8 @@ func _anchors(scene: Node3D) -> void:
 
 
 func _bare_project() -> void:
-	# The harness sets GODOT. OS.get_executable_path() would be the dynamic loader if the engine was unpacked with a
-	# loader of its own.
+	# The harness sets GODOT. OS.get_executable_path() is no alternative: if the engine was unpacked with a dynamic
+	# loader of its own, it returns the path of that loader.
 	var godot := OS.get_environment("GODOT")
 	if not _checks.check(not godot.is_empty(), "GODOT names the engine, as tests/run.sh sets it"):
 		return
@@ -202,7 +202,7 @@ func _merged() -> void:
 	scene.free()
 
 
-# A transformed world must be saved with its transform, and its chunks must have the same places in it.
+# If the world has a transform, it must be saved with this transform, and its chunks must keep their places in it.
 func _placed() -> void:
 	var path := FOLDER + "/placed.scn"
 	_world.transform = Transform3D(Basis(Vector3.UP, 0.7), Vector3(10, 20, 30))
@@ -271,7 +271,8 @@ func _failures() -> void:
 	_checks.expect_error("SgmBake: there is no folder '.*nowhere': make it first")
 	_checks.equal(SgmBake.bake_to_scene(_world, FOLDER + "/nowhere/baked.scn"), ERR_FILE_BAD_PATH, "no such folder")
 	_checks.equal(SgmBake.export_glb(_world, FOLDER + "/nowhere/baked.glb"), ERR_FILE_BAD_PATH, "and for glTF")
-	# Use a file name that is too long for any file system, and a path at which a folder exists.
+	# Two paths that cannot be written: a file name that is too long for any file system, and a path at which a folder
+	# exists.
 	_checks.expect_error("SgmBake: '.*' cannot be written .*: choose a folder")
 	var long := FOLDER.path_join("a".repeat(300))
 	_checks.check(SgmBake.bake_to_scene(_world, long + ".tscn") != OK, "a file that cannot be written")
@@ -332,7 +333,7 @@ static func _has_color(scene: Node3D, wanted: Color) -> bool:
 	return false
 
 
-# Returns all files in the folder, including those whose names begin with a point, of which none must be left.
+# Returns all files in the folder, including unfinished ones, whose names begin with a dot: none of these must be left.
 static func _files() -> PackedStringArray:
 	var folder := DirAccess.open(FOLDER)
 	folder.include_hidden = true

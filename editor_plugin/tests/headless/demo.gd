@@ -1,6 +1,6 @@
 extends SceneTree
-## Tests the demo's places as a player uses them: each is entered from the menu, walked through, dug in, grown again and
-## left.
+## Tests the demo's places as a player uses them: each is entered from the menu, walked through, dug in, generated again
+## with other seeds and left.
 
 const Checks := preload("res://tests/lib/checks.gd")
 ## Seconds without progress after which a world counts as stuck. Its threads have a low priority, and other tests may
@@ -55,7 +55,7 @@ func _menu() -> void:
 
 func _enter(path: String) -> DemoPlace:
 	var place: DemoPlace = (load(path) as PackedScene).instantiate()
-	# Shorter distances are set, so that the world becomes idle sooner.
+	# Shorter distances than in the demo, so that the world becomes idle sooner.
 	if not place is DemoSky:
 		place.world.view_distance = 64.0
 		place.world.finest_distance = 24.0

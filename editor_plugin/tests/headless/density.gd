@@ -21,7 +21,7 @@ func _initialize() -> void:
 	_world.grammar = grammar
 	_checks.check(_one(MIDDLE).is_empty(), "the answer is empty while no world runs")
 	root.add_child(_world)
-	# The world's session starts in its first frame.
+	# Wait for some frames, because the world's session starts only in the world's first frame.
 	for i in 3:
 		await process_frame
 	_values()

@@ -71,7 +71,7 @@ func _initialize() -> void:
 	_checks.equal(cave.world.ray_cast(cave.viewer.global_position, Vector3.DOWN, 60).material, "calcite", "and what was built")
 	await cave.leave()
 
-	# A second world simulates another player's.
+	# A second world takes the role of another player's world.
 	cave = Cave.new(self)
 	await cave.enter()
 	_checks.equal(cave.world.import_edits(bytes), OK, "another world takes them over")

@@ -24,7 +24,8 @@ func _initialize() -> void:
 	var way := cave.passages(METRES)
 	_checks.check(Cave.length_of(way) >= METRES, "there is a way of %.0f m through the passages" % METRES)
 	await cave.settle()
-	# The engine reports the longest frame of the last second: wait until frames that planned the path are out of it.
+	# The engine reports the longest frame of the last second. Wait until this second no longer contains the frames that
+	# planned the path.
 	for i in 2 * Engine.max_fps:
 		await process_frame
 	var main_thread: Array[float] = []

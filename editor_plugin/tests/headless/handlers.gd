@@ -1,6 +1,6 @@
 extends SceneTree
-## Tests signal handlers that end the world which emits the signal, or start another one. Also tests settings that
-## change nothing, and settings for names that the grammar currently lacks.
+## Tests handlers of a world's signals that end this world, or start another world. Also tests settings that change
+## nothing, and settings for names that the grammar currently lacks.
 
 const Checks := preload("res://tests/lib/checks.gd")
 const Cave := preload("res://tests/lib/cave.gd")
@@ -88,7 +88,7 @@ func _scene_of(code: String) -> PackedScene:
 	return scene
 
 
-## A scene that is instantiated at an anchor may end the world meanwhile.
+## A script in a scene may end the world while the scene is instantiated at an anchor.
 func _scene_ends() -> void:
 	var scene := _scene_of("extends Node3D\nfunc _ready() -> void:\n\tvar world := get_parent()\n\tworld.get_parent().remove_child.call_deferred(world)\n\tworld.set(\"cell_size\", 0.75)\n\tworld.restart()\n\tworld.wait_until_idle(0.0)\n")
 	var cave := Cave.new(self)

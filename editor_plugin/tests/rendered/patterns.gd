@@ -80,7 +80,7 @@ func _draw(mapping: int, rows: int) -> void:
 			for x in tile.get_width():
 				var pixel := tile.get_pixel(x, y)
 				holes += 1 if pixel.r > 0.9 and pixel.b > 0.9 and pixel.g < 0.1 else 0
-		# Background is visible between leaves, so that pattern may have more holes.
+		# Leaves have gaps between them that show the background, so this pattern may have more holes than the others.
 		_checks.check(holes < (TILE - 16) * (TILE - 16) / (2 if NAMES[i] == "leaf" else 100),
 				"%s is drawn, mapping %d: %d pixels of what lies behind" % [NAMES[i], mapping, holes])
 		seen[tile.get_data()] = NAMES[i]

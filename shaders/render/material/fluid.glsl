@@ -9,7 +9,8 @@ Surface water(Spot at) {
   s.normal = bend(at.n, vec3(ripple.x, 0.0, ripple.z), (at.sheltered ? 0.022 : 0.05) * at.relief);
   vec3 down = refract(-at.to_eye, vec3(0.0, 1.0, 0.0), 0.75);
   float way = at.depth / max(-down.y, 0.6);
-  // Refraction assumes a depth of 60 cm, because the traced depth is too coarse for it.
+  // The depth that the ray tracer finds is too coarse for refraction, so the place on the bed is computed as if the
+  // water were 60 cm deep.
   vec2 bed_at = at.p.xz + down.xz * 0.8;
   // Absorption along the way down to the bed and up to the eye: clear water over limestone in caves; in open water,
   // algae absorb more.
@@ -20,7 +21,8 @@ Surface water(Spot at) {
   float grain = fineNoise(vec3(bed_at * 37.0, 2.0), 0.03, at.footprint);
   vec3 silt = vec3(0.235, 0.212, 0.168) * (1.0 + 0.22 * broad.x + 0.16 * mottle.x + 0.10 * fine.x + 0.08 * grain);
   vec3 bed = silt;
-  // Stones on the bed are in patches, large ones on small ones, and shade their surroundings.
+  // The stones on the bed lie in patches. Large stones lie on top of small ones. All stones shade the ground around
+  // them.
   vec2 bent = bed_at + 0.055 * mottle.yz + 0.016 * fine.yz + 0.003 * noise(vec3(bed_at * 27.0, 6.0)).yz;
   float many = 0.5 * broad.x + 0.2 * mottle.x, dark = 0.75 * length(at.light);
   vec3 to_light = at.light * vec3(0.75, 1.0, 0.75);
@@ -42,7 +44,7 @@ Surface water(Spot at) {
     stone = mix(stone, silt, max(settled, 0.7 * sunk));
     bed = mix(bed, stone, large.there > 0.0 ? visible(0.5 * kLarge, at.footprint) : far);
   }
-  // The shading uses the normals of the stones, because only the water's surface is level.
+  // The bed is shaded by the normals of its stones; the normal of the surface itself is that of the level water.
   vec3 facing = normalize(small.normal + 0.22 * vec3(fine.y, 0.0, fine.z) + 0.10 * vec3(mottle.y, 0.0, mottle.z));
   vec3 from = normalize(to_light + vec3(0.0, 1e-3, 0.0));
   float turned = dot(facing, from) / max(from.y, 0.35);

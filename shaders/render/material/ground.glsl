@@ -19,7 +19,7 @@ Surface granular(Spot at) {
 Surface windblown(Spot at) {
   Surface s = granular(at);
   float flat_share = smoothstep(0.80, 0.94, at.n.y);
-  const float kSoil = 0.3;  // darker colours are soil or mud, which the wind does not move
+  const float kSoil = 0.3;  // a material darker than this is soil or mud, which the wind does not move
   if (at.sheltered || flat_share <= 0.0 || at.colour.r < kSoil) return s;
   vec2 q = at.p.xz;
   vec4 broad = noise(vec3(q * 0.16, 31.0)), patches = noise(vec3(q * 0.9, 17.0));
@@ -36,7 +36,7 @@ Surface windblown(Spot at) {
   s.normal = bend(s.normal, vec3(tilt.x, 0.0, tilt.y), 0.17 * at.relief);
   s.albedo *= 1.0 + seen * (crest < 0.70 ? 0.05 * crest : -0.10);
   s.albedo *= mix(vec3(1.0), vec3(0.90, 0.87, 0.84), flat_share * firm);
-  const float kSand = 0.75;  // brighter colours are snow, which has no stones
+  const float kSand = 0.75;  // a material brighter than this is snow, which has no stones
   if (max(at.colour.r, at.colour.g) > kSand) return s;
   const float kStones = 0.05;
   float near = visible(0.9 * kStones, at.footprint) * flat_share, many = 0.40 * firm - 0.14 + 0.16 * patches.z;

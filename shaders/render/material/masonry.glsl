@@ -94,7 +94,7 @@ Surface paving(Spot at) {
 // Cobbles of a street, rounded and polished by wheels, with earth and moss between them.
 Surface cobbles(Spot at) {
   Chart chart = chartOf(at.p, at.n);
-  // The rows have sunk unevenly.
+  // The rows of cobbles have sunk unevenly.
   vec2 sunk = chart.at + 0.06 * noise(at.p * 0.55).yz + 0.012 * noise(at.p * 2.6 + 3.0).yz;
   Block b = settAt(sunk, vec2(0.155, 0.125), 0.2, 0.06, 83);
   float seen = visible(0.12, at.footprint), broad = noise(at.p * 0.37).x, patchy = noise(at.p * 1.7 + 9.0).x;
@@ -102,7 +102,7 @@ Surface cobbles(Spot at) {
   // Stones come from several quarries: most are grey, some brown, some nearly black.
   vec3 stone = at.colour * (0.74 + 0.52 * b.lot.x) * mix(vec3(0.96, 1.0, 1.04), vec3(1.14, 0.98, 0.82), b.lot.y * b.lot.y);
   stone *= b.lot.z > 0.9 ? 0.62 : 1.0;
-  // The tops are worn bright and smooth.
+  // The tops of the stones are worn bright and smooth.
   float worn = smoothstep(0.012, 0.05, b.edge);
   stone *= (0.86 + 0.22 * worn) * (1.0 + 0.22 * grain);
   float blur = 0.5 * at.footprint, joint = 0.010 + 0.006 * patchy;

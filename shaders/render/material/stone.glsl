@@ -126,7 +126,7 @@ Surface rock(Spot at) {
     mud *= 1.0 - shown;
   }
 
-  // The mesh contains all detail larger than a step, so the relief starts at that size.
+  // The mesh itself shows larger forms of the rock, so the longest wavelength of the relief is 0.36 m.
   vec4 relief_slope = relief(p, 0.36, 7, 2, footprint);
   vec3 slope = relief_slope.xyz;
   slope.y += wall * 0.4 * lamina;

@@ -38,8 +38,8 @@ Surface surfaceOf(Spot at) {
   return s;
 }
 
-// Returns the weight of detail of this size, 0..1. It becomes 0 before detail that is small compared with a sample's
-// footprint (in metres) would flicker.
+// Returns the weight of detail of this size, 0..1. Detail smaller than two footprints of a sample would flicker, so its
+// weight is 0; from four footprints on, it is 1. `size` and `footprint` are in metres.
 float visible(float size, float footprint) { return clamp(size / (2.0 * footprint) - 1.0, 0.0, 1.0); }
 
 // Returns noise with details of this size in metres; 0 if they are too small to be visible.
@@ -49,7 +49,8 @@ float fineNoise(vec3 p, float size, float footprint) {
 }
 
 // Returns the slope of a relief with octaves of noise, the largest with wavelength `period` in metres. The first
-// `ridged` octaves have sharp crests, like broken rock. w: variance of the slopes that are too fine to be visible.
+// `ridged` octaves have sharp crests, like broken rock. Component w of the result: variance of the slopes that are too
+// fine to be visible.
 vec4 relief(vec3 p, float period, int octaves, int ridged, float footprint) {
   const float kVariance = 0.5;  // variance of the slope of one octave along the surface
   vec4 slope = vec4(0.0);
@@ -125,8 +126,8 @@ Chart chartOf(vec3 p, vec3 n) {
     c.at = p.xz;
     return c;
   }
-  // An offset of 0.56 instead of 0.5: otherwise the faces of an octagon turned by half a step would lie exactly between
-  // two steps, and alternate.
+  // An offset of 0.56 instead of 0.5: otherwise the directions of the faces of an octagon turned by half a step would
+  // lie exactly between two steps, and rounding errors would choose between the steps from point to point.
   const float kStep = 6.2831853 / 8.0;
   float turn = floor(atan(n.z, n.x) / kStep + 0.56) * kStep;
   vec3 out_of = vec3(cos(turn), 0.0, sin(turn));
@@ -137,12 +138,12 @@ Chart chartOf(vec3 p, vec3 n) {
   return c;
 }
 
-// A block of masonry, seen from a point of a chart.
+// The block of masonry at a point, and the place of the point in this block.
 struct Block {
   vec3 lot;     // random numbers of the block
   vec2 within;  // position of the point, in metres from the block's middle
   float edge;   // distance in metres from the point to the block's nearest edge
-  vec2 tilt;    // slope of the block's rounded edges, along the wall and up
+  vec2 tilt;    // slope of the block's rounded edges: its components along the wall and upwards
 };
 
 // Returns the block of masonry at a point. The blocks of `size` metres are in courses, each shifted by `shift` blocks.

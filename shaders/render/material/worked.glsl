@@ -112,7 +112,7 @@ Surface asphalt(Spot at) {
   float broad = noise(at.p * 0.35).x + 0.4 * noise(at.p * 1.6).x;
   float mottle = fineNoise(at.p * 6.0, 0.16, at.footprint), clots = fineNoise(at.p * 25.0, 0.04, at.footprint);
   float chips = fineNoise(at.p * 120.0, 0.009, at.footprint), dust = fineNoise(at.p * 64.0, 0.016, at.footprint);
-  // Chips are paler than tar, and more of them are exposed the more it is worn.
+  // Chips are paler than tar, and the more the tar is worn, the more chips are exposed.
   float bare = smoothstep(0.05, 0.40, chips + 0.35 * dust + 0.15 * clots + 0.12 * broad);
   s.albedo = at.colour * (1.0 + 0.16 * broad + 0.13 * mottle + 0.20 * clots + 0.22 * dust) * (1.0 - 0.2 * max(-chips, 0.0));
   s.albedo = mix(s.albedo, vec3(0.20, 0.195, 0.185) * (1.0 + 0.5 * dust), 0.55 * bare);

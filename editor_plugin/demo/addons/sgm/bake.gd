@@ -12,8 +12,8 @@ extends RefCounted
 ## exists.
 
 const ROUGHNESS := 0.85
-## Shaders in this folder read vertex attributes that only the surfaces drawn by the plugin have, so saved surfaces do
-## not use them.
+## The folder of the plugin. Its shaders read vertex attributes that exist only on surfaces that the plugin draws, so
+## saved surfaces do not use these shaders.
 const OWN_FOLDER := "res://addons/sgm/"
 const PARTS: Array[int] = [Mesh.ARRAY_VERTEX, Mesh.ARRAY_NORMAL, Mesh.ARRAY_COLOR, Mesh.ARRAY_TEX_UV]
 
@@ -96,13 +96,13 @@ static func _finish(error: Error, unfinished: String, path: String) -> Error:
 	return _fail_to_write(path, error)
 
 
-# The name of the unfinished file begins with a point, so that the editor does not import it into the project.
+# The name of the unfinished file begins with a dot: the editor does not import such files into the project.
 static func _unfinished(path: String) -> String:
 	return path.get_base_dir().path_join(".unfinished-" + path.get_file())
 
 
-# Gives the new scene the UID of the file that it replaces, so that scenes that refer to the file by its UID find it
-# (Godot 4.4 and newer).
+# Gives the new scene the UID of the file that it replaces: other scenes that refer to the file by this UID thus still
+# find it (Godot 4.4 and newer).
 static func _keep_identifier(unfinished: String, path: String) -> void:
 	var identifier := ResourceLoader.get_resource_uid(path) if FileAccess.file_exists(path) else ResourceUID.INVALID_ID
 	if identifier != ResourceUID.INVALID_ID and ResourceSaver.has_method(&"set_uid"):
@@ -180,7 +180,8 @@ static func _add_anchors(root: Node3D, world: SgmWorld3D, to_local: Transform3D)
 	var bounds: AABB = world.get_bounds()
 	for anchor: Dictionary in world.get_anchors(world.global_transform * bounds):
 		var place := to_local * (anchor.transform as Transform3D)
-		# If the world is rotated, the axis-aligned box that was searched is larger than the bounds.
+		# The search used an axis-aligned box. If the world is rotated, this box is larger than the bounds, so skip the
+		# anchors outside of the bounds.
 		if not bounds.has_point(place.origin):
 			continue
 		var marker := Marker3D.new()
@@ -216,7 +217,7 @@ static func _colors(colors: PackedColorArray, linear: bool) -> PackedColorArray:
 	return colors
 
 
-# Joins all chunks into one mesh, with the world's own origin as its origin.
+# Joins all chunks into one mesh, whose vertices are in the world's own coordinates.
 static func _merged(chunks: Array[Dictionary], materials: Dictionary) -> Dictionary:
 	var surfaces := {}
 	var faces := PackedVector3Array()

@@ -52,8 +52,9 @@ func _handles(object: Object) -> bool:
 	return _text_editing != null and object.is_class("SgmGrammar")
 
 
-# A grammar that is opened as a resource is shown as text, like a script. The engine also calls this for a grammar that
-# unfolds within a world's properties; such a grammar is not what the inspector edits, and is not shown.
+# Shows a grammar that is opened as a resource as text, like a script. The engine also calls this function for a grammar
+# that is only unfolded among a world's properties. The inspector then still edits the world, so such a grammar is not
+# shown.
 func _edit(object: Object) -> void:
 	if object != null:
 		_show_text.call_deferred(object)

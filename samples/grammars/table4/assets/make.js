@@ -13,8 +13,8 @@ class Body {
 
   quad(material, a, b, c, d) { this.byMaterial[materials.indexOf(material)].push(a, b, c, a, c, d); }
 
-  /// Adds the polygon of the loop at z with holes for its features, cut into strips at the heights of all corners; then
-  /// adds each feature.
+  /// Adds the flat face that `loop` encloses in the plane at z, with a hole for each feature. The face is cut into
+  /// strips at the heights of all corners. Then adds the features.
   face(loop, z, material, features, towards = 1) {
     const loops = [loop, ...features.map((f) => f.loop)];
     const heights = [...new Set(loops.flat().map((p) => p[1]))].sort((a, b) => a - b);

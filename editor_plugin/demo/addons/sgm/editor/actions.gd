@@ -2,12 +2,12 @@
 extends GridContainer
 ## The buttons of the dock, which act on the selected world.
 
-## Emitted with a sentence about an error; with an empty text if an action succeeded.
+## Emitted after an action: with a sentence about its error, or with an empty text if it succeeded.
 signal told(sentence: String)
 
 const TextEditing := preload("text_editing.gd")
 const BAKE := "res://addons/sgm/bake.gd"
-## Largest seed that the button chooses: short enough to type and to read out.
+## Largest seed that roll_seed() chooses: short enough to type and to read out.
 const MOST_SEED := 999_999
 
 var undo_redo: EditorUndoRedoManager

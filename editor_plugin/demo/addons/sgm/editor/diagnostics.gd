@@ -66,7 +66,8 @@ func _add(diagnostic: Dictionary) -> void:
 				TextEditing.open.bind(file, diagnostic.line, diagnostic.column))
 
 
-# Returns the file of a diagnostic: paths of imported files are relative to the grammar's folder.
+# Returns the path of a diagnostic's file. In diagnostics, the paths of imported files are relative to the grammar's
+# folder.
 func _file_of(diagnostic: Dictionary) -> String:
 	var file: String = diagnostic.file
 	return file if "://" in file else _grammar.resource_path.get_base_dir().path_join(file)

@@ -180,8 +180,8 @@ func _on_became_idle() -> void:
 		measure()
 
 
-# Deselects a world that is deleted, or hidden by another scene's tab: the world must not be destroyed while it is
-# measured.
+# Deselects the world when it is deleted or when the tab of another scene hides it. This ends a running measurement: the
+# world must not be destroyed while it is measured.
 func _on_world_leaves() -> void:
 	_choose(null)
 

@@ -3,7 +3,7 @@ extends EditorNode3DGizmoPlugin
 ## Draws the bounds of an SgmWorld3D's drawn chunks, and the anchors near the editor's camera.
 
 const Preview := preload("preview.gd")
-## Maximum distance in metres from the camera to a drawn anchor.
+## Anchors are drawn up to this distance from the camera, in metres.
 const REACH := 64.0
 ## Number of anchors, nearest first, whose names are shown.
 const MOST_NAMES := 48
@@ -63,8 +63,8 @@ static func bounds_lines(world: SgmWorld3D) -> PackedVector3Array:
 		return lines
 	for corner in 8:
 		for axis in 3:
-			# Bits 0, 1, 2 of a corner's index tell its end along z, y, x. The edges along an axis start at the corners
-			# without that axis' bit.
+			# In a corner's index, bits 0, 1 and 2 tell whether the corner is at the lower or the upper end along z, y
+			# and x. An edge along an axis thus starts at each corner whose bit for this axis is 0.
 			var bit := 4 >> axis
 			if corner & bit == 0:
 				lines.append(box.get_endpoint(corner))

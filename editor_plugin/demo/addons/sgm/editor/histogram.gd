@@ -4,13 +4,14 @@ extends Control
 ## ones on the right. The height of a bar is proportional to the square root of the share of edges with its angles, so
 ## that the few sharp edges are visible in addition to the many flat ones.
 
-## Number of bars: odd, so that flat edges are all in one bar.
+## Number of bars. It is odd, so that one bar, in the middle, contains all flat edges.
 const BINS := 33
 const HEIGHT := 110.0
 const GAP := 1.0
 const LABELS: Array[String] = ["concave", "flat", "convex"]
 
-## The share of all edges in each bar, from the most concave to the most convex; empty before the first measurement.
+## For each bar, its share of all edges. The first bar has the most concave edges, the last bar the most convex ones.
+## Empty before the first measurement.
 var shares := PackedFloat64Array()
 
 ## The total shares of concave, flat and convex edges; empty before the first measurement.

@@ -7,7 +7,8 @@ const Diagnostics := preload("diagnostics.gd")
 const RowTip := preload("row_tip.gd")
 const PARAMETERS := "parameters/"
 
-# True while this plugin lets the engine make a property's default row: the engine then calls this plugin again.
+# True while this plugin asks the engine for the default row of a property. The engine then asks this plugin again for a
+# row of the same property; that inner call must change nothing.
 var _makes_row := false
 
 

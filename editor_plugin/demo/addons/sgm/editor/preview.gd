@@ -4,7 +4,7 @@ extends Node
 
 ## Seconds between two searches for worlds, and between two updates of a gizmo.
 const PACE := 0.5
-## Metres that the camera moves before the gizmo is updated with other anchors.
+## Distance in metres: after the camera has moved this far, the gizmo is updated to show other anchors.
 const STEP := 4.0
 
 ## All SG+M worlds in the edited scene.
@@ -12,7 +12,7 @@ var worlds: Array[SgmWorld3D] = []
 
 var _root: Node
 var _rest := 0.0
-## The state for which each world's gizmo was last drawn, by the world's instance id.
+## For each world (by its instance id), the state that its gizmo last showed.
 var _drawn := {}
 
 
@@ -66,7 +66,8 @@ func _refresh_gizmos() -> void:
 	for world in worlds:
 		var id := world.get_instance_id()
 		drawn[id] = [world.is_idle(), world.get_bounds(), world.global_transform, place]
-		# While a world streams, its anchors change even if its bounds stay the same.
+		# While a world streams, its anchors may change even if its bounds do not. So its gizmo is updated in any case until
+  # the world is idle.
 		if not world.is_idle() or drawn[id] != _drawn.get(id):
 			world.update_gizmos()
 	_drawn = drawn

@@ -1,10 +1,9 @@
 @tool
 extends Node
-## Reloads used grammars when their files, or files that they import, have changed. Also restores the resource path of a
-## grammar when the script editor has taken it over, for example when it reopens its files at the start.
-##
-## Files are compared by their contents: the editor does not report that it has saved a text, other programs report
-## nothing, and file times are too coarse for two changes within a second.
+## Reloads the grammars in use when their files, or files that they import, have changed. The script editor may take
+## over the resource path of a grammar, for example when it reopens its files at the start; this script then restores
+## the path. Changes are found by comparing the contents of files: the editor does not report that it has saved a text,
+## other programs report nothing, and file times are too coarse for two changes within a second.
 
 const TextEditing := preload("text_editing.gd")
 ## Seconds between two checks of the files.
@@ -58,7 +57,8 @@ func look() -> void:
 	_seen = seen
 
 
-# Scenes that the editor opens at its start exist before the first frame, so nodes are noticed when they are added.
+# Finds the grammars of worlds when the worlds are added to the tree. A later search would be too late for scenes that
+# the editor opens at its start: they exist before the first frame.
 func _on_node_added(node: Node) -> void:
 	if node is SgmWorld3D and (node as SgmWorld3D).grammar != null:
 		var grammar := (node as SgmWorld3D).grammar

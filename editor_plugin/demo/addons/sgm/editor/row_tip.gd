@@ -1,11 +1,10 @@
 @tool
 extends Node2D
-## Shows a tooltip for a row in the inspector, in place of the engine's tooltip.
-##
-## The engine interprets the tooltip of a row itself as the name of a symbol in its class reference. Therefore a control
-## over the row's name has the text: since Godot 4.6 the engine's own control there; in older versions, a control behind
-## everything else in the row. That control is a child of this node, because the row would change the layout of a child
-## of its own. It passes mouse events on to the row.
+## Shows a tooltip for a row in the inspector, in place of the engine's tooltip. If the row itself had a tooltip, the
+## engine would interpret its text as the name of a symbol in its class reference. So the text is the tooltip of a
+## control that covers the row's name. Since Godot 4.6 the engine has such a control. In older versions, this script
+## adds a control behind everything else in the row, as a child of this node: as a child of the row, it would change the
+## row's layout. This control passes mouse events on to the row.
 
 var _row: EditorProperty
 var _control := Control.new()

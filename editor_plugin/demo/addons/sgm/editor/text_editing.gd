@@ -16,7 +16,8 @@ static func is_supported() -> bool:
 	return ClassDB.class_has_method(&"Resource", &"set_path_cache")
 
 
-## Adds the file extension of grammars to those that the editor opens as text, or removes it. Other extensions stay.
+## The editor has a list of the file extensions that it opens as text. Adds the extension of grammars to this list if
+## [param wanted] is true, otherwise removes it. Other extensions stay in the list.
 static func take_for_text(wanted: bool) -> void:
 	var settings := EditorInterface.get_editor_settings()
 	var endings := Array((settings.get_setting(SETTING) as String).split(",", false)).map(
@@ -53,14 +54,16 @@ static func open(path: String, line := 0, column := 1) -> bool:
 	return true
 
 
-## Restores the grammar as the resource with a path, after the script editor has taken over the path. Without a grammar,
-## the next request for the path loads the file.
+## When the script editor opens a file, its text takes over the path of the grammar. This function gives the path back:
+## the engine then finds [param grammar] under [param path] again. If the grammar is null, the path becomes free, and
+## the next request for it loads the file.
 static func give_back(path: String, grammar: SgmGrammar) -> void:
 	# If the file was deleted, the grammar has no path any more.
 	if not is_supported() or not FileAccess.file_exists(path):
 		return
 	if not ResourceLoader.has_cached(path):
-		# The script editor has already released its own text resource, because the file had been opened before.
+		# The path is already free: the script editor has released its own text resource, because it had opened the file
+		# before.
 		if grammar != null:
 			grammar.take_over_path(path)
 		return
