@@ -1,20 +1,7 @@
-/*
- * Checks sizes and offsets of every struct of sgm/sgm_cuda.h, and its _INIT macros, as layout.c does for sgm/sgm.h.
- * Compiled as C99 and as C++20.
- */
+/* Checks sizes and offsets of every struct of sgm/sgm_cuda.h, and its _INIT macros. */
 #include <sgm/sgm_cuda.h>
 
-#if defined(__cplusplus)
-#define CHECK(name, truth) static_assert(truth, #name)
-#define LAYOUT_INITS sgm_cuda_inits_cpp
-extern "C" int LAYOUT_INITS(void);
-#else
-#define CHECK(name, truth) typedef char check_##name[(truth) ? 1 : -1]
-#define LAYOUT_INITS sgm_cuda_inits_c
-int LAYOUT_INITS(void);
-#endif
-#define SIZE(type, bytes) CHECK(sizeof_##type, sizeof(type) == (bytes))
-#define PLACE(type, field, bytes) CHECK(offsetof_##type##_##field, offsetof(type, field) == (bytes))
+#include "layout.h"
 
 SIZE(sgm_cuda_device_desc, 40);
 PLACE(sgm_cuda_device_desc, context, 16);
@@ -29,7 +16,7 @@ SIZE(sgm_cuda_mesh_view, 184);
 PLACE(sgm_cuda_mesh_view, body, 16);
 PLACE(sgm_cuda_mesh_view, seams, 40);
 
-int LAYOUT_INITS(void) {
+INITS(sgm_cuda_inits) {
   const sgm_cuda_device_desc device = SGM_CUDA_DEVICE_DESC_INIT;
   const sgm_cuda_mesh_view view = SGM_CUDA_MESH_VIEW_INIT;
   return device.struct_size == sizeof(device) && device.next == SGM_NULL && device.context == SGM_NULL &&

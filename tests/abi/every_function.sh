@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Checks that every function that sgm/sgm.h declares is called with wrong arguments in one of the TESTS, except for the
-# four functions that take no pointer; and that layout.c checks every constant that the header defines.
-#   every_function.sh HEADER LAYOUT TESTS...
+# four functions that take no pointer; and that constants.c checks every constant that the header defines.
+#   every_function.sh HEADER CONSTANTS TESTS...
 set -euo pipefail
-header=$1 layout=$2
+header=$1 constants=$2
 shift 2
 missing=0
 complain() {
@@ -21,6 +21,6 @@ done
 numbers=$(grep -oE '^(  SGM_[A-Z0-9_]+ =|#define SGM_[A-Z0-9_]+ [(0-9])' "$header" | grep -oE 'SGM_[A-Z0-9_]+') || true
 [[ -n $numbers ]] || complain "no number was found in $header"
 for name in $numbers; do
-  grep -q "\b$name ==" "$layout" || complain "$name is not pinned"
+  grep -q "\b$name ==" "$constants" || complain "$name is not pinned"
 done
 exit $missing

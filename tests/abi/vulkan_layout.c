@@ -1,20 +1,7 @@
-/*
- * Checks sizes and offsets of every struct of sgm/sgm_vulkan.h, and its _INIT macros, as layout.c does for sgm/sgm.h.
- * Compiled as C99 and as C++20.
- */
+/* Checks sizes and offsets of every struct of sgm/sgm_vulkan.h, and its _INIT macros. */
 #include <sgm/sgm_vulkan.h>
 
-#if defined(__cplusplus)
-#define CHECK(name, truth) static_assert(truth, #name)
-#define LAYOUT_INITS sgm_vulkan_inits_cpp
-extern "C" int LAYOUT_INITS(void);
-#else
-#define CHECK(name, truth) typedef char check_##name[(truth) ? 1 : -1]
-#define LAYOUT_INITS sgm_vulkan_inits_c
-int LAYOUT_INITS(void);
-#endif
-#define SIZE(type, bytes) CHECK(sizeof_##type, sizeof(type) == (bytes))
-#define PLACE(type, field, bytes) CHECK(offsetof_##type##_##field, offsetof(type, field) == (bytes))
+#include "layout.h"
 
 SIZE(sgm_vulkan_device_desc, 120);
 PLACE(sgm_vulkan_device_desc, api_version, 16);
@@ -46,7 +33,7 @@ PLACE(sgm_vulkan_mesh_view, value, 24);
 PLACE(sgm_vulkan_mesh_view, body, 32);
 PLACE(sgm_vulkan_mesh_view, seams, 88);
 
-int LAYOUT_INITS(void) {
+INITS(sgm_vulkan_inits) {
   const sgm_vulkan_device_desc device = SGM_VULKAN_DEVICE_DESC_INIT;
   const sgm_vulkan_mesh_view view = SGM_VULKAN_MESH_VIEW_INIT;
   return device.struct_size == sizeof(device) && device.next == SGM_NULL && device.timeline_semaphores == 0 &&

@@ -1,2 +1,0 @@
-// Compiles layout.c as C++20.
-#include "layout.c"

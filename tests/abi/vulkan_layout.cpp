@@ -1,2 +1,0 @@
-// Compiles vulkan_layout.c as C++20.
-#include "vulkan_layout.c"
