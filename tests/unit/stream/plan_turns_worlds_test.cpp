@@ -74,8 +74,9 @@ TEST_CASE("a world plans as soon as another one has left with jobs that never be
 TEST_CASE("a world whose viewers move all the time plans though nothing is meshed") {
   const auto begun_at = std::chrono::steady_clock::now();
   TwoWorlds worlds;
-  // If no chunks are meshed, the second world may plan as soon as the first world's plan took less than a twentieth of
-  // the time that has passed since.
+  // No job meshes chunks here, so only elapsed time is credited for plans: a twentieth of it (PlanTurns::kTrickle). So
+  // the second world's plan begins after 20 times the duration of the first world's plan, which ran in the constructor
+  // of `worlds`. The limit is 40 times the duration of the constructor, and a minute as a margin.
   const auto at_most = begun_at + std::chrono::minutes(1) + 40 * (std::chrono::steady_clock::now() - begun_at);
   while (worlds.jobs.waiting() == 1 && std::chrono::steady_clock::now() < at_most) {
     worlds.move(*worlds.second);
