@@ -34,7 +34,8 @@ class OpSequence {
   void popWarp() { --place_; }
 
   /// Assigns registers, appends the ops to `instrs`, clears the sequence, and returns the register of the root. Error:
-  /// limit if the ops need more registers or places than exist; then `instrs` stays as it was.
+  /// limit if the ops need more than kMaxRegisters registers, or if nested warps need more than kMaxPlaces position
+  /// registers. After an error, `instrs` is unchanged, but the sequence is cleared.
   Result<uint8_t> moveTo(std::pmr::vector<Instr>& instrs, Value root);
 
  private:

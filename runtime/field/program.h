@@ -34,9 +34,11 @@ inline constexpr int kMaxPlaces = 8;
 /// value, so that a cut by an empty group removes nothing.
 inline constexpr float kFar = 1.0e30f;
 
-/// One operation. Its result goes to the register dst; a, b and c are its operands. An accumulating op updates the
-/// registers dst and b, and has the operand a. place: a position register, which a POSITION op reads, and from which a
-/// warp starts. A warp writes the warped position to the position register dst.
+/// One operation. Usually, its operands are in the registers a, b and c, and it writes its result to the register dst.
+/// Exceptions: an accumulator consists of the two registers dst and b; round_begin and sum_begin initialise both, and
+/// round_add and sum_add update both with the operand in register a. A warp writes the warped position to the position
+/// register dst. place: the position register that a warp reads, or an op of the form POSITION or POSITION_1
+/// (field/ops.def).
 struct Instr {
   Op op = Op::constant;
   uint8_t dst = 0, a = 0, b = 0, c = 0, place = 0;

@@ -103,8 +103,9 @@ class InnerVertices {
     // If the loop has no other sharp side, there is no next point: return the ideal point of `own` itself.
     if (others == 0) return ideals_[own];
     if (others == 1) return idealOf(last);
-    // If exactly one other side of the loop lies on this crease, the next point is the ideal point of that side.
-    // Otherwise the crease may end inside the cell, where it meets other creases.
+    // The loop has several other sharp sides. If exactly one of them has its ideal point on the crease of `own`, that
+    // point is the next one. Otherwise the crease may end inside the cell: return the point where it meets the loop's
+    // other creases.
     return others_along == 1 ? idealOf(along) : meetingPoint(sharp_.loops[loop], side.corner);
   }
 

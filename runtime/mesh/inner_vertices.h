@@ -14,11 +14,13 @@
 
 namespace sgm {
 
-/// Places the face vertices of all loop sides that are not in a face of the chunk. A face vertex lies on the crease of
-/// the tangent planes of the side's two ends. If that point is off the surface because a third plane cuts the crease
-/// off (SharpSide::third), the face vertex lies on the crease of the third plane and of one end's plane. A side gets no
-/// position if this point, too, is off the surface or too far away. sharp: its sides must be filled; sides in faces of
-/// the chunk already have positions. Throws std::bad_alloc.
+/// Places a face vertex on each sharp loop side inside the chunk. (A side is a segment of a surface loop on a cell's
+/// face. Sides on faces of the chunk are placed earlier, by placeBorderVertices().) The face vertex lies on the crease
+/// in which the tangent planes of the side's two ends meet. If that point is off the surface because a third plane cuts
+/// the crease off (SharpSide::third), the face vertex lies on the crease between the third plane and the plane of one
+/// end. A side gets no position if this point, too, is off the surface or too far away. sharp: the caller has filled in
+/// sharp.sides, and the positions (`places`) of sides on faces of the chunk; this function sets the positions of the
+/// other sides. Throws std::bad_alloc.
 void placeInnerVertices(const Creases& creases, const FieldSampler& field, SharpLoops& sharp,
                         std::pmr::memory_resource* memory);
 

@@ -56,8 +56,9 @@ class LevelOfSeam {
         middles_(memory),
         memory_(memory) {}
 
-  /// Slides this level's vertices in the seam onto the surface. Then computes the face vertices of this level's sides,
-  /// and appends them to the seam. triangles_end: number of the seam's indices.
+  /// Slides those vertices of the seam that belong to this level onto the surface. Then finds this level's sharp loop
+  /// sides (mesh/sharp_loops.h): edges of seam triangles whose two ends have different normals. Computes the face
+  /// vertices of these sides, and appends them to the seam. triangles_end: number of the seam's triangle indices.
   void addFaceVertices(size_t triangles_end) {
     takeVertices();
     if (of_seam_.empty()) return;

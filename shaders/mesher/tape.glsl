@@ -1,8 +1,8 @@
 // How a shader stores a field program (backend/vulkan/tape.h): records are in a private array (the window), and the
-// current record is in registers. Its words are spread over the lanes, which exchange them by subgroup shuffles. This
-// is fast on software Vulkan. There, reading a buffer is a loop over the lanes, which takes hundreds of cycles, for one
-// word as for four; reading an array with a variable index is eight loads; and a shuffle is one instruction. On
-// hardware, all of these operations are fast.
+// current record is in registers. The words of a record are spread over the lanes of a subgroup: each lane stores four
+// of 32 words, and gets the words of other lanes by subgroup shuffles. This is fast on software Vulkan. There, reading
+// a buffer is a loop over the lanes, which takes hundreds of cycles, for one word as for four; reading an array with a
+// variable index is eight loads; and a shuffle is one instruction. On hardware, all of these operations are fast.
 //
 // Requires that all lanes of a subgroup are active, as in all control flow here, and that subgroups have at least 8
 // lanes.

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Tests that an existing build folder still works after a module's folder gets submodules, or loses them: no source file
-# may be replaced by a link, and headers must be found.
+# Tests that an existing build folder still works after a module's folder gets a submodule (a subfolder with its own
+# CMakeLists.txt), and after this submodule is removed. CMake makes symbolic links to the headers in the build folder:
+# the compiler must find the headers, and no file in the source folder may be replaced by a link.
 #
 #   bash tests/scripts/include_root_test.sh CMAKE ROOT
 set -euo pipefail

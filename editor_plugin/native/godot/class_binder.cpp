@@ -3,7 +3,7 @@
 namespace sgm_godot {
 namespace {
 
-/// An engine String that lives while a description is passed to the engine.
+/// Owns a String object of the engine: creates it from UTF-8 text, and destroys it in the destructor.
 class Text {
  public:
   explicit Text(std::string_view text) {

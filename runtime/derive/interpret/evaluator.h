@@ -50,9 +50,10 @@ class Evaluator {
   Value evaluateMember(const ExprNode& node, const Env& env);
   Value evaluateCall(const ExprNode& node, const Env& env);
   Value evaluateBuiltin(const ExprNode& node, const Env& env);
-  Value evaluatePure(const ExprNode& node, const Env& env);      ///< arithmetic
-  Value evaluateRandom(const ExprNode& node, const Env& env);    ///< rand, chance
-  Value evaluateCellular(const ExprNode& node, const Env& env);  ///< evaluates the functions of cells, faces and noise
+  Value evaluatePure(const ExprNode& node, const Env& env);    ///< arithmetic
+  Value evaluateRandom(const ExprNode& node, const Env& env);  ///< rand, chance
+  /// evaluates calls of the functions cellnoise and fractal, and of the methods point and links of cells and faces
+  Value evaluateCellular(const ExprNode& node, const Env& env);
   Value evaluateBranch(const ExprNode& node, const Env& env);
   Value evaluateQuery(const ExprNode& node, const Env& env);
   Value evaluateLet(const ExprNode& node, const Env& env);

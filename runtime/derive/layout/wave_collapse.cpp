@@ -13,8 +13,9 @@ namespace {
 
 /// The number of choices that the first search may undo before it restarts.
 constexpr uint64_t kFirstRetreats = 32;
-/// Divisor in the cost of a visit. This cost, in units of work, is the number of labels, times the number of 64-bit
-/// words in a set of tiles, divided by this constant; it is at least 1.
+/// Divisor in the cost of a visit, that is, of updating the neighbours of one place (propagate()). In units of
+/// WaveResult::work, a visit costs L * W / kLabelsOfVisit, but at least 1. L: number of labels that the tiles use;
+/// W: number of 64-bit words of a TileSet.
 constexpr uint64_t kLabelsOfVisit = 8;
 
 constexpr size_t facing(size_t side) { return side < 4 ? (side + 2) % 4 : 9 - side; }

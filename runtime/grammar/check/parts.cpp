@@ -8,8 +8,8 @@ namespace sgm {
 
 namespace {
 
-/// Returns the first call `box(scope)` in statement `id` whose scope is the statement's own, not one that a nested
-/// statement changes; kNoId: none.
+/// Returns the first call `box(scope)` in statement `id`; kNoId if there is none. Looks into blocks, cut and unite, but
+/// not into statements that may change the scope, so the call uses the scope in which `id` itself is evaluated.
 ExprId boxOfScope(const Program& program, StmtId id) {
   const StmtNode& s = program.stmt(id);
   if (s.kind == StmtKind::block || s.kind == StmtKind::cut || s.kind == StmtKind::unite) {

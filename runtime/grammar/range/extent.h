@@ -70,8 +70,9 @@ struct Extent {
 
   static Extent nothing();
   static Extent unbounded();
-  /// Returns the extent of a leaf. lower, upper: intervals of the ends of its box. ball: radius of a ball around the
-  /// origin that contains the leaf, or 0.
+  /// Returns the extent of one leaf (a primitive), whose bounding box is known only approximately. lower, upper: for
+  /// each axis, an interval in metres that contains the box's low end (lower) or high end (upper). ball: Hull::ball of
+  /// the result; its Hull::core is the box Hull::may shrunk by `ball` on each side.
   static Extent leaf(const IntervalVector& lower, const IntervalVector& upper, double ball = 0);
 
   void join(const Extent& other);    ///< adds the extent of another statement, which is derived in addition

@@ -1,5 +1,6 @@
 #pragma once
-// Reports layers whose reach is not proven: the cause, at a line that the author can change, and a remedy.
+// Reports layers whose shapes are not proven to stay within the reach that the layer declares. A message names the
+// cause, at a line that the grammar's author can change, and suggests a remedy.
 
 #include <cstdint>
 #include <string>

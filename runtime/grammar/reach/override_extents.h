@@ -63,9 +63,9 @@ class OverrideExtents {
     const Target* outer = nullptr;      ///< the enclosing target, if the blocks of overrides are nested; null: none
   };
 
-  /// Returns the extent of the target as if only the first `below` of its overrides existed. above: if the target is
-  /// evaluated for an `inner` in the block of an override by path, that override: overrides that cannot apply together
-  /// with it are left out. Otherwise null.
+  /// Returns the extent of the target as if only the first `below` of its overrides existed. above: the override by
+  /// path whose block contains the `inner` that stands for the target; overrides that cannot apply together with
+  /// `above` are left out. Null: no `inner` stands for the target, or the override around that `inner` is by tag.
   Extent boundTarget(const Target& target, size_t below, RangeFrame& frame, const Override* above,
                      ReachContext& context);
   /// Returns the extent of the block of target.overrides[at], which replaces the target.

@@ -304,7 +304,7 @@ struct LinkNode {
 
 /// The labels of one side of a tile or of a wfc's border, as written.
 struct SocketNode {
-  /// the side: one of BoxPart::front to BoxPart::bottom, or BoxPart::side for all four upright sides
+  /// the side: BoxPart::front, right, back, left, top or bottom; or BoxPart::side for all four upright sides
   BoxPart of = BoxPart::front;
   IdRange labels;  ///< into Ast::ids (NameId): the labels of this side
   IdRange meets;   ///< into Ast::ids (NameId): labels that this side may touch; empty: those in `labels`

@@ -51,7 +51,9 @@ struct NamedPlace {
 struct LayerDecl {
   NameId name = kNoId;
   ExprId cell = kNoId, reach = kNoId, start = kNoId;
-  ExprId detail = kNoId;  ///< the length of the layer's `detail`; kNoId: the layer is visible at every level
+  /// The length after the word `detail`: levels whose cell edge is longer do not show the layer. kNoId: the declaration
+  /// has no `detail`, so it hides the layer at no level.
+  ExprId detail = kNoId;
   std::vector<NamedPlace> uses;
   Span span;
 };

@@ -23,7 +23,7 @@ enum class ValueKind : uint8_t {
   number,   ///< one number of dimension dim
   boolean,
   vector,    ///< three numbers of dimension dim; a point if dim is length
-  pair,      ///< two numbers of dimension dim (corners of a prism, x and z)
+  pair,      ///< a tuple of two numbers of dimension dim: x and z, such as a corner of a prism's base
   cell,      ///< a cell of the layer: `cell`, or the member `other` of a face
   face,      ///< a face of a cell, from cell.faces or cell.links
   faces,     ///< a list of faces, over which `for` iterates

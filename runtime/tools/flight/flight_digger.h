@@ -22,8 +22,9 @@ Spread spreadOf(std::vector<double> values);
 
 struct DigReport {
   uint64_t cuts = 0, adds = 0, undos = 0;
-  Spread frames;            ///< number of new drawn frames from a dig until it is visible
-  Spread milliseconds;      ///< wall time from a dig until it is drawn
+  Spread frames;            ///< for each dig: how often the drawn frame (sgm_world_stats::frame) changed, from the dig
+                            ///< to the change that made the dig visible
+  Spread milliseconds;      ///< for each dig: wall time until it is visible
   uint64_t max_queued = 0;  ///< maximum number of chunks that waited for meshing after a frame, from the first dig on
 
   uint64_t digs() const { return cuts + adds + undos; }

@@ -1,6 +1,6 @@
 #pragma once
-// The light that arrives at the visible surface of each pixel. How the surface's material reflects it is computed
-// later, by the shader.
+// The light that arrives at the visible surface of each pixel, computed on the CPU by tracing rays. Afterwards, the
+// shader shaders/render/shade.comp computes how much of this light the surface's material reflects to the eye.
 
 #include <cstdint>
 #include <glm/vec3.hpp>

@@ -14,7 +14,8 @@ namespace {
 constexpr Ink kHidden{70, 70, 70};
 // Pixels: heights of large and small letters, and gap between the label of a floor's height and the circle next to it.
 constexpr double kLetters = 8, kSmall = 7, kGap = 5;
-// pixels: minimum distance between two labels, and between two labels with the same height
+// Pixels: minimum distance between two labels that state different heights (kBetweenLabels), and between two labels
+// that state the same height (kBetweenLikeLabels).
 constexpr double kBetweenLabels = 110, kBetweenLikeLabels = 240;
 constexpr size_t kMaxLabels = 24;
 // metres; a passage counts as continuing beyond the region if at least this length of the region's border lies in it

@@ -44,7 +44,7 @@ Surface water(Spot at) {
     stone = mix(stone, silt, max(settled, 0.7 * sunk));
     bed = mix(bed, stone, large.there > 0.0 ? visible(0.5 * kLarge, at.footprint) : far);
   }
-  // The bed is shaded by the normals of its stones; the normal of the surface itself is that of the level water.
+  // Shade the bed here, by the normals of its stones, because s.normal is the normal of the water's surface.
   vec3 facing = normalize(small.normal + 0.22 * vec3(fine.y, 0.0, fine.z) + 0.10 * vec3(mottle.y, 0.0, mottle.z));
   vec3 from = normalize(to_light + vec3(0.0, 1e-3, 0.0));
   float turned = dot(facing, from) / max(from.y, 0.35);

@@ -126,8 +126,9 @@ Chart chartOf(vec3 p, vec3 n) {
     c.at = p.xz;
     return c;
   }
-  // An offset of 0.56 instead of 0.5: otherwise the directions of the faces of an octagon turned by half a step would
-  // lie exactly between two steps, and rounding errors would choose between the steps from point to point.
+  // Round the wall's direction to a multiple of kStep (45 degrees). The offset is 0.56 instead of 0.5. With 0.5, the
+  // faces of an octagonal column that is turned by 22.5 degrees would lie exactly between two multiples, so that
+  // rounding errors would choose between them from point to point.
   const float kStep = 6.2831853 / 8.0;
   float turn = floor(atan(n.z, n.x) / kStep + 0.56) * kStep;
   vec3 out_of = vec3(cos(turn), 0.0, sin(turn));

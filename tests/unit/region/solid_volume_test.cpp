@@ -65,7 +65,7 @@ TEST_CASE("thin and bulky boxes have their volume", "[metrics]") {
 TEST_CASE("half a ball is left of one that a face of the border cuts, each of the six", "[metrics]") {
   const double whole = 4 * 3.14159265358979323846 * 27 / 3;
   for (int face = 0; face < 6; ++face) {
-    // The ball's centre lies on a face of the region's border, which is 4 m from the origin.
+    // The region is a cube from -4 m to 4 m on each axis. The ball's centre is the centre of one of the cube's faces.
     const std::array<double, 3> at = [&] {
       std::array<double, 3> p{};
       p[static_cast<size_t>(face / 2)] = face % 2 == 0 ? -4 : 4;

@@ -124,7 +124,8 @@ TEST_CASE("flowstone lies on floors, and is as high as it says", "[std][costly]"
       const Int3 p = mound.origin;
       floor.push_back(p);
       above.push_back({p.x, p.y + 1, p.z});
-      inside.push_back({p.x, p.y + 300, p.z});  // the passages are a metre wide and half a metre high
+      // 300 units are 0.29 m: inside the mound. Even the smallest mounds (r = 1 m in lake.sgm) are about 0.5 m high.
+      inside.push_back({p.x, p.y + 300, p.z});
     }
     const auto isSolid = [](bool solid) { return solid; };
     const std::vector<bool> on_rock = solidAt(**rock, floor), in_void = solidAt(**rock, above),
