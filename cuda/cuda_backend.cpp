@@ -19,8 +19,7 @@ struct Slot final : DeviceSlot {
   explicit Slot(std::pmr::memory_resource* resource) : plan(resource) {}
   Plan plan;
   BatchMemory memory;
-  /// the stream that must become idle before this slot's work is complete: memory.stream for a batch, memory.reading
-  /// for copies that are made later
+  /// the stream to wait for: memory.stream for a batch, memory.reading for copies that are made later
   Stream* awaited = nullptr;
   std::unique_ptr<Placement> placed;  ///< the memory on the rendering device to which this slot's copies write
 };
@@ -191,7 +190,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     try {
       warn_("the meshes of CUDA cannot be moved to the drawing device: " + why.message);
     } catch (const std::bad_alloc&) {
-      // There is no memory for the message, so do not warn. The failure still shows: the meshes have no parts on the
+      // Memory for the message is missing, so do not warn. The failure still shows: the meshes have no parts on the
       // rendering device.
     }
   }

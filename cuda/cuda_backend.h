@@ -14,8 +14,8 @@
 namespace sgm {
 
 struct CudaBackendOptions {
-  /// Opens the device. It is called again after the device was lost; if that call fails, the CPU meshes all further
-  /// chunks. It is called by one thread at a time.
+  /// Opens the device. After a loss of the device, each batch calls it again until it succeeds; after too many failures
+  /// in a row, the CPU meshes all further chunks. Called by one thread at a time.
   std::function<Result<std::unique_ptr<cuda::Device>>()> open;
   /// same as BackendRequest::warn; also called if meshes cannot be moved to `store`
   std::function<void(const std::string&)> warn = nullptr;

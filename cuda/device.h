@@ -66,8 +66,8 @@ class Stream {
   virtual Result<void> clear(void* device, size_t bytes) = 0;
   /// Enqueues a kernel. blocks: number of thread blocks, at least one.
   virtual Result<void> launch(Kernel kernel, uint32_t blocks, const Batch& batch) = 0;
-  /// Marks the end of the work that has been enqueued so far; ended() and wait() refer to this mark. In the engine's
-  /// stream, they therefore do not wait for work that the engine enqueues after the mark.
+  /// Marks the end of the work that has been enqueued so far; ended() and wait() refer to this mark until more work is
+  /// added. In the engine's stream, they thus do not wait for work that the engine enqueues after the mark.
   virtual Result<void> mark() = 0;
   /// Returns true if the marked work has ended. Does not block.
   virtual Result<bool> ended() = 0;

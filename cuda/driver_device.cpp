@@ -103,8 +103,8 @@ Error noKernels() {
   return {Code::unsupported, "this build has no CUDA kernels: build it with nvcc installed and SGM_CUDA=ON"};
 }
 
-/// Converts an error that occurs while a device is opened. device_lost becomes unsupported, because there is no open
-/// device yet that could be lost. For example, another process may use the device exclusively.
+/// Converts an error that occurs while a device is opened. device_lost becomes unsupported, because the device was
+/// not open yet. For example, another process may use the device exclusively.
 Error unusable(const Error& error) {
   return {error.code == Code::device_lost ? Code::unsupported : error.code, error.message};
 }

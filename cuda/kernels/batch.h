@@ -63,15 +63,15 @@ struct GroupBounds {
   bool met, whole, live;
 };
 
-/// A program pruned to one box. In the array of items, brick b of chunk c has the index 64 c + b. Behind all bricks,
+/// A program pruned to one box. In the array of items, brick b of chunk c has the index 64 c + b. After all bricks,
 /// each seam has two items for its face plane: first the chunk's own program, then the program of the next coarser
 /// level.
 struct Item {
   enum State : uint32_t { mixed, solid, empty };
   uint32_t state;
   uint32_t program;
-  /// 0 if the box is not sampled, or if the pool for pruned programs was full; in the latter case the whole program is
-  /// used, which is valid everywhere
+  /// 0 if the pool for pruned programs was full or the box needed no pruned program; then the whole program is used,
+  /// which is valid everywhere
   uint32_t pruned;
   uint32_t first_instr, instrs, first_group, groups;  ///< range of the pruned program in the pools, if pruned
   float initial;

@@ -80,8 +80,8 @@ struct FacePlane {
   SGM_KERNEL uint32_t sample(uint32_t a, uint32_t b) const { return origin + a * step_u + b * step_v; }
 };
 
-/// The grid edges in one row of a sign plane whose two ends have different signs: those along u, and those along v.
-/// cells: number of cells along each side of the plane.
+/// The crossed edges (edges whose two ends have different signs) that start in one row of a sign plane, along u and
+/// along v. cells: number of cells along each side of the plane.
 struct PlaneEdges {
   uint64_t u, v;
   template <class Word>

@@ -66,7 +66,7 @@ struct SeamVertices {
     bool along_v;
   };
 
-  /// Returns the n-th crossed edge in a plane of sample signs. (An edge is crossed if the signs at its ends differ.)
+  /// Returns crossed edge n, counted from 0, of a sign plane. (An edge is crossed if the signs at its ends differ.)
   /// before: for each row, the number of crossed edges in all previous rows.
   template <class Word>
   SGM_KERNEL static Edge edgeOf(const Word* plane, const uint32_t* before, uint32_t side, uint32_t n) {

@@ -17,8 +17,7 @@ class Anchors {
     std::vector<uint64_t> gone;  // keys of the anchors that are no longer in drawn chunks
   };
   /// Applies one frame's changes of the drawn chunks. Returns the anchors that appear and the anchors that disappear.
-  /// If a chunk is replaced by finer or coarser chunks, its anchors lie in the new chunks; such anchors are not
-  /// returned.
+  /// Anchors that pass from a replaced chunk to the finer or coarser chunks in its place are not returned.
   News follow(const std::vector<Picture::Change>& changes);
   std::vector<uint64_t> clear();  // forgets all anchors, and returns their keys
 

@@ -137,7 +137,7 @@ extern "C" __attribute__((visibility("default"))) GDExtensionBool sgm_godot_init
     GDExtensionInitialization* initialization) {
   using namespace sgm_godot;
   if (const char* missing = loadInterface(address, library); missing != nullptr) {
-    // Older engines have only this function for printing an error.
+    // The interface is not loaded, so get the function that prints the error directly.
     const auto print = reinterpret_cast<GDExtensionInterfacePrintErrorWithMessage>(
         reinterpret_cast<void*>(address("print_error_with_message")));
     if (print != nullptr) {

@@ -11,7 +11,7 @@ struct Plugin;
 
 class Materials {
  public:
-  /// Loads the plugin's own shader. If its file is missing, uses a plain material and logs an error.
+  /// Loads the plugin's own shader. If its file is missing, uses a plain material and logs a warning.
   void rebuild(Plugin& plugin, const std::vector<std::string>& names, const Settings& settings);
 
   // slot of each material, indexed by material of the grammar

@@ -82,7 +82,8 @@ class Picture {
     sgm_event_kind kind;
     sgm_chunk_key key;
     std::shared_ptr<sgm_mesh> mesh;
-    // new parts, which replace the drawn parts once they are uploaded; null: the drawn part stays
+    // New parts, which replace the drawn parts once they are uploaded. If only body is null, the drawn body stays. If
+    // the chunk is removed, both are null.
     UploadOwner body, seams;
     uint32_t mask;
   };

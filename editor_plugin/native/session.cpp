@@ -19,7 +19,7 @@ int32_t topLevelFor(double view_distance, int32_t cell_units) {
   return static_cast<int32_t>(std::clamp(std::floor(std::log2(view_distance / chunk)), 0.0, double{SGM_MAX_LEVEL}));
 }
 
-/// Returns a message about view distances that are out of range; empty if all are valid.
+/// Returns a message about lengths in the settings that are out of range; empty if all are valid.
 std::string wrongDistances(const Settings& settings) {
   std::string wrong;
   const auto look = [&](const char* name, double metres) {

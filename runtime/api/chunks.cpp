@@ -123,7 +123,7 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
       }
       made[i] = makeHandle<sgm_mesh>(field->runtime, std::move(surface));
     };
-    // A job processes up to 8 requests in a row, if there are many: most chunks are empty, and meshing an empty chunk
+    // If there are many chunks, a job finishes up to 8 of them: most chunks are empty, and finishing an empty chunk
     // takes less time than scheduling a job.
     const size_t in_a_row = std::clamp<size_t>(desc->count / (4 * field->runtime.jobs->concurrency()), 1, 8);
     sgm::parallelFor(*field->runtime.jobs, (desc->count + in_a_row - 1) / in_a_row, [&](size_t row) {

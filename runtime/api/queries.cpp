@@ -10,8 +10,8 @@ namespace {
 
 std::array<double, 3> vectorOf(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
-/// Writes the result of a query to `out`: the point that was found, or found = 0 if there is none. If the query failed,
-/// returns its error. Keeps struct_size and next of `out`.
+/// Writes the result of a query to `out`: the point, or found = 0 if the query found no point. If the query
+/// failed, returns its error. Keeps struct_size and next of `out`.
 sgm_result writePoint(const sgm::Result<std::optional<sgm::SurfacePoint>>& asked, sgm_surface_point& out,
                       sgm_error* error) {
   if (!asked) return fail(error, asked.error());

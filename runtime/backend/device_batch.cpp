@@ -202,7 +202,7 @@ class DeviceBatch final : public ChunkBatch {
   }
 
   /// Reads the results of a slot. Returns true if the device has begun further work in the slot: it copies the meshes
-  /// that stay in its memory.
+  /// that stay on a device.
   bool readSlot(DeviceSlot& slot) {
     const auto done = [&](size_t job) {
       finished(slot.first + job);

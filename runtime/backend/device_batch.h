@@ -22,7 +22,7 @@ class DeviceSlot {
   bool stuck = false;      ///< true if it is unknown whether the device has finished; the slot is then never reused
 };
 
-/// An open device with everything that was created on it. It exists as long as any batch or mesh of the device.
+/// An open device with everything that was created on it. It exists as long as any batch or mesh of this session.
 /// Thread-safe, but a slot must be used by one thread at a time. The destructor waits for the device.
 class DeviceSession {
  public:
@@ -38,21 +38,21 @@ class DeviceSession {
   virtual std::unique_ptr<DeviceSlot> takeSlot() = 0;
   /// Takes back a slot that takeSlot() has returned.
   virtual void release(std::unique_ptr<DeviceSlot> slot) noexcept = 0;
-  /// Plans the first n jobs for one submission, as many as fit, but at least one. Returns n.
+  /// Plans as many jobs for one submission as fit, from the first job on, but at least one. Returns their number.
   virtual size_t plan(std::span<const ChunkJob> jobs, DeviceSlot& slot) = 0;
   /// Returns the indices of the planned jobs that are uniform: they have no surface, and need no device.
   virtual std::span<const uint32_t> uniform(const DeviceSlot& slot) const = 0;
   /// True if the plan contains work for the device.
   virtual bool hasWork(const DeviceSlot& slot) const = 0;
-  /// True if submit() can begin at once. False if it would have to wait for preparations, such as compiling shaders;
-  /// this call has then started them.
+  /// False if submit() would have to wait for preparations, such as compiling shaders, that now run in the background;
+  /// this call starts them if necessary.
   virtual bool ready(const DeviceSlot&) noexcept { return true; }
   /// Submits the planned work. Errors: device_lost, out_of_memory, limit, unsupported. Throws std::bad_alloc.
   virtual Result<void> submit(DeviceSlot& slot) = 0;
   /// Returns true if the device has finished the slot's work; does not wait.
   virtual Result<bool> ended(DeviceSlot& slot) = 0;
   virtual Result<void> await(DeviceSlot& slot) = 0;
-  /// Reads the results of a slot whose work has ended. Fills one mesh for each planned job, and then calls done(index
+  /// Reads the results of a slot whose work has ended. For each planned job, fills its mesh and then calls done(index
   /// of the job); if done returns false, the rest is cancelled. Returns true if the device has begun to copy meshes
   /// that stay in its memory: the slot is then still in use, so wait for it again. Throws std::bad_alloc.
   virtual Result<bool> read(DeviceSlot& slot, std::span<const ChunkJob> jobs, std::span<ChunkMesh> meshes,

@@ -25,8 +25,8 @@ struct PartPlace {
   uint64_t vertices = 0, indices = 0;
 };
 
-/// Parts that have memory but no content yet. If the object is destroyed while `writing` is true, nobody knows when the
-/// writing ends. So the memory is not reused as long as the store exists.
+/// Parts that have memory but no content yet. If the object is destroyed while `writing` is true, it is unknown when
+/// the writing ends. So the memory is not reused as long as the store exists.
 class Placement {
  public:
   Placement() = default;
@@ -34,14 +34,12 @@ class Placement {
   Placement(const Placement&) = delete;
   Placement& operator=(const Placement&) = delete;
 
-  std::vector<DeviceParts> chunks;  ///< for each chunk, its placed parts; all parts of a chunk are null if there was no
-                                    ///< memory for it
+  std::vector<DeviceParts> chunks;  ///< the placed parts of each chunk; all null for a chunk that got no memory
   std::vector<PartPlace> parts;
   // The members below are set by the code that writes the content.
   /// true while content is written; must be set before the first byte is written
   bool writing = false;
-  std::vector<std::shared_ptr<const void>> held;  ///< objects that the writing of the content uses; they must exist
-                                                  ///< until this writing ends
+  std::vector<std::shared_ptr<const void>> held;  ///< objects that must exist until the writing ends
 };
 
 /// Allocates memory of the drawing device for parts. The parts keep the store alive. Thread-safe.

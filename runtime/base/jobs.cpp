@@ -160,7 +160,7 @@ void parallelFor(JobSystem& jobs, size_t count, const std::function<void(size_t)
       share.release();
     }
   } catch (const std::bad_alloc&) {
-    // There is no memory to submit a further job: continue with fewer threads. Do not throw, because the jobs that
+    // Memory to submit a further job is missing: continue with fewer threads. Do not throw, because the jobs that
     // are already submitted read the caller's `body`.
   }
   state->run();

@@ -106,8 +106,8 @@ ChunkPartInputs::ChunkPartInputs(const WorldField& world, const ChunkRequest& re
   const ChunkGrid grid = *chunkGrid(world, request.key);
   const auto around = [&](int level) { return world.brushes(sampledBox(grid, level, request.sharp), level, edits); };
   brushes_ = around(grid.level);
-  // Beyond the meshed world there are no brushes, so the seams of an outermost chunk depend on no brushes of the
-  // coarser level.
+  // The field beyond the meshed world has no brushes, so the seams of an outermost chunk do not depend on brushes of
+  // the coarser level.
   if (request.seams != 0 && !request.outermost) coarser_ = around(grid.level + 1);
 }
 

@@ -51,8 +51,8 @@ class ChunkPartInputs {
   /// to chunks of the next level, not to virtual neighbours; if it is the body of a level above 0, neither anchors nor
   /// voids are requested.
   bool isAsBaked(int part) const;
-  /// Returns the inputs of the corresponding part as `sgm bake` stores it. A baked part serves every streamed world: at
-  /// level 0 it also contains the anchors and the voids, which only some worlds request.
+  /// Returns the inputs of the corresponding part as `sgm bake` stores it. A baked part must serve every streamed
+  /// world, so at level 0 it also contains the anchors and the voids, which only some worlds request.
   ChunkPartInputs asBaked() const;
 
   const ChunkRequest& request() const { return request_; }

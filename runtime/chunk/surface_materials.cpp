@@ -136,8 +136,8 @@ Result<void> materialsAround(const WorldField& field, int level, const EditSnaps
   const Made around((*program)->view(), places, scratch, field.memory());
 
   // The surface of the mesh only approximates the surface of the field. So a place can lie in the air, where no shape
-  // defines a material; it then gets the material of the solid behind it. If the grammar has only the default material,
-  // all this is skipped.
+  // defines a material; it then gets the material of the solid behind it. The search for this solid is skipped if the
+  // grammar has only the default material.
   const bool named = field.settings().program->materials.size() > 1;
   PointList behind(field.memory());
   std::pmr::vector<size_t> in_air(field.memory());

@@ -8,7 +8,7 @@
 
 namespace sgm {
 
-/// All parts thinner than a cell that the statements of one rule make.
+/// The thin parts (see thinParts()) that the statements of one rule make.
 struct ThinPart {
   std::string rule;       ///< name of the rule as in its call, such as "Pane" or "cave.Column"
   bool cut = false;       ///< true: the thin part is cut away; false: it is added

@@ -68,8 +68,8 @@ inline constexpr float kMaxPower = 20.0f;  ///< exponent of a superquadric with 
 
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;
-  /// index into the grammar's materials; 0: none, so that a cut surface keeps the material of the solid, and other
-  /// shapes have the default material
+  /// index into the grammar's materials; 0: a cut keeps the material of the solid that it cuts, and any other shape has
+  /// the default material
   uint16_t material = 0;
   uint16_t tag = 0;                           ///< index into the grammar's tags; 0: none
   uint32_t first_child = 0, child_count = 0;  ///< range of the children in GrammarChunk::children

@@ -79,7 +79,7 @@ std::vector<BeamPiece> beamAlong(const std::vector<Int3>& corners, double r, Vec
         piece.frame.rows[3 * row + static_cast<size_t>(axis)] = static_cast<float>(rows[row][axis] + 0.0);
       }
     }
-    // The box is one unit larger, to compensate for the rounding of its centre.
+    // The half extents are one unit larger, to compensate for the rounding of the centre.
     const float half = static_cast<float>(r + 1.0);
     piece.half = {half, half, static_cast<float>(0.5 * size + r + 1.0)};
     pieces.push_back(piece);

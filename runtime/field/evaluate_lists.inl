@@ -16,8 +16,8 @@ FN Dual primitiveAt(Int px, Int py, Int pz, Params P) {
 }
 
 /// Counts the consecutive pairs of instructions at the beginning of `instrs`: a primitive, then an instruction that
-/// combines the primitive with the same accumulator as `add`. All these primitives write the same register, so no other
-/// instruction reads the result of any but the last one.
+/// combines the primitive with the same accumulator as `add`. All these primitives write the same register, so later
+/// instructions can read only the result of the last one.
 SGM_KERNEL size_t pairsOf(std::span<const Instr> instrs, Op primitive, const Instr& add) {
   size_t pairs = 0;
   for (; 2 * pairs + 1 < instrs.size(); ++pairs) {
@@ -145,9 +145,8 @@ SGM_KERNEL bool runAlone(const ProgramView& program, const BlockFrame& f, const 
   }
 }
 
-/// Constants that have not been written to memory yet. (A register's memory holds one value for each point of the
-/// block.) Most constants are operands of arithmetic, which uses them directly, so most are never written to memory at
-/// all.
+/// Constants that have not been written to memory yet, where a register has one value for each point of the block. Most
+/// constants are operands of arithmetic, which uses them directly, so they are never written to memory.
 struct HeldConstants {
   uint32_t held = 0;  ///< mask of the registers whose constants are held, one bit each
   float value[kMaxRegisters] = {};

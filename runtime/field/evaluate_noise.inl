@@ -3,8 +3,7 @@
 // Both are computed once, and each sample looks up the gradients at its corners. A gradient has at most two components
 // that are not 0, so the sum of three products has the same bits in every order. Included by evaluate_lists.inl.
 
-/// maximum number of noise periods along an axis; they have one corner more than there are periods, that is, kRow
-/// corners
+/// maximum number of noise periods along an axis; their corners are one more, that is, kRow
 inline constexpr size_t kMaxNoisePeriods = 7;
 inline constexpr size_t kMaxNoiseRows = kEvalBlock / kRow;
 
@@ -71,7 +70,7 @@ struct NoiseCorners {
   }
 };
 
-/// The data of one octave for a block. They are large, so all octaves use the same object, one after the other.
+/// The data of one octave for a block. It is large, so all octaves use the same object, one after the other.
 struct NoiseBlock {
   NoiseAxis columns, rows, slices;
   NoiseCorners corners;

@@ -21,8 +21,8 @@ PlaceBox placeBox(const IntBox& box);
 /// Returns the relative error that ops.def states for the op.
 double statedError(Op op);
 
-/// Returns the sum of those sizes of a primitive that affect its value. The rounding error of the value is proportional
-/// to this sum plus the distance of the position from the primitive's centre.
+/// Returns the sum of the sizes of a primitive that affect its value. The relative error of the op (ops.def) refers to
+/// this sum plus the distance of the position from the primitive's centre.
 double sizeSum(Op op, const uint32_t* params);
 
 /// Returns bounds of an op that reads a position. t: the operand of power_morph; ignored by other ops.

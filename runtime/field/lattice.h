@@ -18,8 +18,8 @@ struct SampleLattice {
   std::array<uint32_t, 3> count{4, 4, 4};
 };
 
-/// kFarSample: the value of the lattice op wherever the interpolated value is at or beyond the op's limit. Samples have
-/// a magnitude of at most kLargestSample.
+/// kFarSample: the magnitude of the lattice op's value where the interpolated value reaches the op's limit. Samples
+/// have a magnitude of at most kLargestSample.
 inline constexpr float kFarSample = 1e18f, kLargestSample = 1e12f;
 
 /// Returns the points of the lattice cells that contain the box, and of one more cell on every side. Lattices of equal

@@ -1,6 +1,5 @@
 #pragma once
-// A sequence of ops on values: the form of a group of ops under construction. The values get registers when the group
-// is complete.
+// A sequence of ops on values: the form of a group until it is complete. Then its values get registers.
 
 #include <memory_resource>
 #include <vector>

@@ -154,9 +154,10 @@ Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
   }
 }
 
-// Bounds a power morph: the n-norm of u (the local position divided by the radii), minus 1. As t increases, the
-// exponent n grows, so that the norm falls; the radii change, too. The bounds treat both effects separately: ||u||_max
-// <= ||u||_n <= ||u||_2, each for the smaller and the larger radii at the ends of t. radius: half the box's diagonal.
+// Bounds a power morph: the smallest radius times (||u||_n - 1), where u is the local position divided by the radii. As
+// t increases, the exponent n grows, so that the norm falls; the radii change, too. The bounds treat both effects
+// separately: ||u||_max <= ||u||_n <= ||u||_2, each for the smaller and the larger radii at the ends of t. radius: half
+// the box's diagonal.
 Interval powerMorphRange(const uint32_t* p, const CentredBox& c, double radius, Interval t) {
   const Interval s = clamped(t, 0, 1);
   if (s.lo == s.hi) {

@@ -37,7 +37,7 @@ inline constexpr float kFar = 1.0e30f;
 /// One operation. Usually, its operands are in the registers a, b and c, and it writes its result to the register dst.
 /// Exceptions: an accumulator consists of the two registers dst and b; round_begin and sum_begin initialise both, and
 /// round_add and sum_add update both with the operand in register a. A warp writes the warped position to the position
-/// register dst. place: the position register that a warp reads, or an op of the form POSITION or POSITION_1
+/// register dst. place: the position register that the op reads, if it is a warp or has the form POSITION or POSITION_1
 /// (field/ops.def).
 struct Instr {
   Op op = Op::constant;

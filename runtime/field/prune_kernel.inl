@@ -56,13 +56,11 @@ SGM_KERNEL bool readsPosition(Op op) {
 #undef SGM_FORM_SUM_END
 #undef SGM_FORM_WARP
 
-// Knows which registers currently contain the floor of another register's value. The difference of a value and its
+// Records which registers contain the floor of another register's current value. The difference of a value and its
 // floor lies in 0..1, which cannot be concluded from the bounds of the two registers.
 struct FloorSources {
-  uint32_t known = 0;                   // mask of the registers whose current value is the floor of another register's
-                                        // value
-  uint32_t floors[kMaxRegisters] = {};  // for each register: mask of the registers whose current value is the floor of
-                                        // its value
+  uint32_t known = 0;                   // mask of the registers that contain the floor of another register
+  uint32_t floors[kMaxRegisters] = {};  // for each register: mask of the registers that contain the floor of its value
   uint8_t source[kMaxRegisters] = {};
 
   SGM_KERNEL bool floorOf(uint8_t a, uint8_t b) const { return (known >> b & 1) != 0 && source[b] == a; }

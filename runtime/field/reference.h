@@ -14,15 +14,14 @@ namespace sgm {
 inline double realAt(const uint32_t* params, int i) { return double{std::bit_cast<float>(params[i])}; }
 inline double wholeAt(const uint32_t* params, int i) { return static_cast<double>(static_cast<int32_t>(params[i])); }
 
-/// Returns the value in units of a primitive (an op from Op::sphere to Op::prism in the order of the enumeration), or
-/// the weight of a blob, at a position in units.
+/// Returns the value in units of a primitive (Op::sphere to Op::prism, except power_morph), or the weight of a blob, at
+/// a position in units.
 double referencePrimitive(Op op, const uint32_t* params, double x, double y, double z);
 
 /// Returns the value of the noise op at p, -1 to 1.
 double referenceNoise(const uint32_t* params, Int3 p);
 
-/// Returns the value in units of the op power_morph at a position in units. This op changes one shape into another; t,
-/// 0..1, is the progress of this change.
+/// Returns the value of the op power_morph, in units, at a position in units. t: the progress of the morph, 0..1.
 double referencePowerMorph(const uint32_t* params, double t, double x, double y, double z);
 
 /// Returns the value of the field at p, in units.

@@ -31,7 +31,7 @@ class ShapeCompiler {
         memory_(memory),
         exprs_(chunk, cell, builder, memory) {}
 
-  /// Emits a shape; nullopt if the level drops the whole shape because it is too small.
+  /// Emits a shape; nullopt if the level drops the whole shape.
   Result<std::optional<Value>> root(uint32_t shape) {
     exprs_.beginGroup();
     return emit(shape, 0);
@@ -49,8 +49,8 @@ class ShapeCompiler {
   uint32_t labelOf(uint32_t index);
 
   Emitted emit(uint32_t index, int depth);
-  /// Emits a hard union or intersection, operand by operand. If an operand of an intersection is too small for the
-  /// level of detail, the whole intersection is dropped.
+  /// Emits a hard union or intersection, operand by operand. If the level drops an operand of an intersection, it drops
+  /// the whole intersection.
   Emitted chain(const Shape& s, Op op, int depth, bool all);
   Emitted subtract(const Shape& s, int depth);
   /// Emits the round union of the children. Intersection and subtraction are round unions with negated operands: an

@@ -14,7 +14,7 @@
 
 namespace sgm {
 
-/// program: null exactly if a diagnostic is an error. Diagnostics are sorted by file and position.
+/// program: null if and only if a diagnostic is an error. Diagnostics are sorted by file and position.
 struct CompileResult {
   std::shared_ptr<const Program> program;
   std::vector<Diagnostic> diagnostics;

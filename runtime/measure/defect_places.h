@@ -22,7 +22,7 @@ enum class DefectKind {
   inside_out,        ///< a closed shell that faces inward without being a cavity
   nested,            ///< a closed shell inside the solid of another shell
   folded,            ///< two triangles that overlap at a common edge
-  self_intersection  ///< two triangles that intersect, or touch at a place that is no common corner or edge
+  self_intersection  ///< two triangles that intersect, or touch outside of their common corners and edge
 };
 
 /// Returns the name of a kind in the output of --json and in the service.

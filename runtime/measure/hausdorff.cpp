@@ -90,8 +90,8 @@ struct Candidate {
   friend bool operator<(const Candidate& a, const Candidate& b) { return a.at_most < b.at_most; }
 };
 
-/// A quarter of a candidate. The candidate's nearest triangle gives a first bound for the quarter. Only if this bound
-/// is not low enough, the triangle nearest to the quarter's middle is searched.
+/// A quarter of a candidate. The candidate's nearest triangle gives a first bound for the quarter. Unless this bound is
+/// low enough, the triangle nearest to the quarter's middle is searched.
 struct Quarter {
   Candidate rest;
   double distance = -1;  ///< distance of its middle; -1 if it was not searched

@@ -23,7 +23,7 @@ enum class HistogramMode {
   /// v = 1/2 - d / (2 pi), from 0 to 1: flat at 1/2, more where convex; bin min(floor(v R), R - 1) + 1.
   corrected,
   /// v = 1/2 - atan(L d / |e|) / pi. It is computed from the curvature d / |e| instead of the angle d, so that the
-  /// histogram does not become narrower as the mesh becomes finer. All edges of a ball of radius L are at 3/4.
+  /// histogram does not become narrower as the mesh becomes finer. A ball of radius L is at 3/4.
   curvature,
 };
 

@@ -140,8 +140,8 @@ class BodyMeasurer {
       ++topology_.compared;
     }
     for (size_t row = 0; row < signs_.size(); ++row) crossed += crossedEdges(row);
-    // Counts the vertices on uncrossed edges, and the crossed edges without a vertex. A second vertex on one edge was
-    // already counted as misplaced, so no crossed edge has two here.
+    // Counts the vertices on uncrossed edges, and the crossed edges without a vertex. Assumes that each edge has at
+    // most one vertex: a second one was counted as misplaced.
     count(Defect::unlike_samples) = topology_.compared - on_crossed + (crossed > on_crossed ? crossed - on_crossed : 0);
   }
 

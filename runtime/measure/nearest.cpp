@@ -57,7 +57,7 @@ Nearest nearestOf(const Triangles& mesh, const Bvh& tree, Point to, uint32_t gue
     square = squareTo(place, to);
   };
   take(guess, nearestOn(cornersOf(mesh, guess), to));
-  // A stack of nodes to be searched. Each level of the tree adds at most one node that waits, which limits the depth.
+  // The stack of nodes to be searched. It is large enough, since each level of the tree adds at most one waiting node.
   std::array<std::pair<double, size_t>, 34> waiting;
   waiting[0] = {squareTo(tree.box(1), to), 1};
   size_t count = 1;

@@ -32,9 +32,9 @@ Point turned(Point p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3], 
 
 constexpr int kColumns = 6;
 
-/// Returns on which side of the nearest open shell above it a point lies. If there is no open shell above, or the line
-/// only touches it, searches below the point, then along the other axes. nullopt if one of these searches would visit
-/// more than max_steps nodes of the tree.
+/// Finds the nearest open shell above a point, and returns on which side of this shell the point lies. If no open shell
+/// lies above, or the line only touches it, searches below the point, then along the other axes. nullopt if one of
+/// these searches would visit more than max_steps nodes of the tree.
 std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const Shells& parts, Point at,
                                    uint64_t max_steps) {
   for (int number = 0; number < kColumns; ++number) {

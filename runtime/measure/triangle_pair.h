@@ -7,8 +7,8 @@
 namespace sgm::measure {
 
 /// Tests two triangles. A corner is common to both if it has the same index in both, so points at equal positions must
-/// have been merged before (weld_points.h); otherwise they count as touching. A triangle without area neither folds
-/// onto nor cuts another one.
+/// have been merged before (weld_points.h); otherwise the triangles count as touching. A triangle without area neither
+/// folds onto nor cuts another one.
 PairFault pairFault(std::span<const Point> points, Triangle a, Triangle b);
 inline bool meetWrongly(std::span<const Point> points, const Triangle& a, const Triangle& b) {
   return pairFault(points, a, b) != PairFault::none;

@@ -52,7 +52,7 @@ class Joiner {
     return corner;
   }
 
-  /// Returns the ambiguous faces inside the chunk through which a crease passes, sorted by FaceName.
+  /// Returns those ambiguous faces inside the chunk that a crease passes through, sorted by FaceName.
   std::pmr::vector<AmbiguousFace> ambiguousFaces() const {
     std::pmr::vector<AmbiguousFace> faces(memory_);
     for (const SurfaceLoop& loop : loops_.body().all()) {
@@ -221,7 +221,7 @@ class Joiner {
       if (!is_clear || !(is_beside ? has_own || has_others : has_own && has_others)) return;
       const CellLoops others = loops_.loopsOf(other);
       for (const CellLoop& loop : others.loops()) {
-        // Skip a loop that has no valid triangulation: isSound() finds that fault when it tests the loop's own cell.
+        // Skips a loop that has no valid triangulation: isSound() finds that fault when it tests the loop's own cell.
         if (!loop.canTriangulate()) continue;
         const LoopTriangles theirs = roundedTriangles(other, loop);
         for (size_t i = 0; i < of_cell.count; ++i) is_clear = is_clear && !anyMeets(made[i], theirs);

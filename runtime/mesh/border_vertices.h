@@ -18,8 +18,8 @@ std::pmr::vector<SharpSide> borderSides(const BodyLoops& body, const Creases& cr
 /// Places the face vertices of the loop sides in a face of the chunk (SharpSide::places). A side is a segment of a
 /// surface loop in a face of a cell. Its face vertex lies where the tangent planes of the side's two ends meet the
 /// face, in the side's own grid square or the adjacent one. If that point is off the surface because a third plane cuts
-/// the crease off (SharpSide::third), the side gets two positions; at each of them, the third plane meets the face and
-/// one of the two tangent planes; if these are unusable, one position on the third plane. A side gets no position if
+/// the crease off (SharpSide::third), the side gets two positions, where the third plane meets the face and each of the
+/// two tangent planes; if these are unusable, it gets one position on the third plane. A side gets no position if
 /// all of these points are too far away or off the surface; if the surface passes through its square twice; or if the
 /// rounded loop would intersect another loop of its own cell or of adjacent cells (mesh/rounded_cells.h).
 ///

@@ -82,9 +82,9 @@ struct VertexKey {
 };
 inline constexpr uint8_t kLateral = 3;
 /// Keys of feature vertices (mesh/sharpen.h). A face vertex, which belongs to a face of a cell: `axis` is kFaceVertex
-/// plus the axis of the face's normal; `corner` is the lowest corner of the face; `fan` is the number of the loop side
-/// in this face, plus kSecondOfSide for the second face vertex of the same side. A cell vertex, the centre of a loop's
-/// fan: `axis` is kCellVertex; `corner` is the lowest corner of the cell; `fan` is the number of the loop in the cell.
+/// plus the axis of the face's normal; `corner` is the lowest corner of the face; `fan` identifies the loop side in
+/// this face, plus kSecondOfSide for the second face vertex of the same side. A cell vertex, the centre of a loop's
+/// fan: `axis` is kCellVertex; `corner` is the lowest corner of the cell; `fan` identifies the loop in the cell.
 inline constexpr uint8_t kFaceVertex = 4;
 inline constexpr uint8_t kCellVertex = 7;
 inline constexpr uint8_t kSecondOfSide = 8;

@@ -59,7 +59,7 @@ void Creases::touch() {
   }
 }
 
-/// Returns the point on the grid edge of a vertex that is `step` / 256 of the edge's length from the edge's start.
+/// Returns the point on a vertex's grid edge at `step` / 256 of the edge's length, counted from the edge's start.
 Int3 Creases::pointOnEdge(uint32_t vertex, int32_t step) const {
   Int3 point = part_.keys[vertex].corner;
   point[part_.keys[vertex].axis] += localUnits(step, grid_.cell);

@@ -12,10 +12,10 @@ namespace sgm {
 namespace {
 
 constexpr uint32_t kNone = SharpLoops::kNone;
-/// A quick test, which most fans around a cell vertex pass: true if no two triangles of the fan overlap in a projection
-/// along one of a few directions. In the projection, the fan then goes around its centre once and never turns back.
+/// True if the fan, in a projection along one of a few directions, goes around its centre once and never turns back.
+/// Then no two of its triangles overlap. Most fans around a cell vertex pass this quick test.
 bool isSeenWhole(std::span<const NamedTriangle> fan) {
-  // The fan is not closed: its centre is one of the ring's own points.
+  // If the centre is one of the ring's own points, the fan does not go around it.
   if (fan.front().name[1] != fan.back().name[2]) return false;
   for (size_t i = 1; i < fan.size(); ++i)
     if (fan[i].name[0] != fan[0].name[0] || fan[i].name[1] != fan[i - 1].name[2]) return false;

@@ -11,10 +11,10 @@ namespace sgm {
 /// corners and edges.
 bool hasFault(const LoopTriangles& fan);
 
-/// Replaces each fan that intersects itself or a triangle of another loop, until there is none: gives the fan another
-/// centre or, if no centre is left, rounds the loop (mesh/sharp_loops.h). Loops that are not sharp keep their
-/// triangles. isSound: returns whether a fan may stay although it has lost face vertices. takeNextCentre: gives a loop
-/// the next centre whose fan is valid; returns false if no centre is left. Throws std::bad_alloc.
+/// As long as a fan intersects a triangle of another loop, or is no longer sound after it has lost face vertices, gives
+/// the fan another centre or, if no centre is left, rounds the loop (mesh/sharp_loops.h). Loops that are not sharp keep
+/// their triangles. isSound: returns whether a fan may stay although it has lost face vertices. takeNextCentre: gives a
+/// loop the next centre whose fan is valid; returns false if no centre is left. Throws std::bad_alloc.
 void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTriangles&)>& isSound,
                      const std::function<bool(SharpLoop&)>& takeNextCentre, std::pmr::memory_resource* memory);
 

@@ -66,9 +66,9 @@ SeamFans seamFans(Face face, Neighbourhood coarser) {
             neighbourBit(offset(place.x, o & 1), offset(place.y, o >> 1 & 1), offset(place.z, o >> 2));
         octants |= static_cast<uint32_t>((coarser & block) != 0) << o;
       }
-      // All quads at this corner that lie in the seam's face and beside the chunk give the same fan, so use any of
-      // them. Its side along u: if the corner is at the chunk's low border, the chunk lies on the corner's high side,
-      // and vice versa. The same holds along v.
+      // All quads at this corner that lie in the seam's face and beside the chunk give the same fan, so any of them
+      // will do. Its side along u: if the corner is at the chunk's low border, the chunk lies on the corner's high
+      // side, and vice versa. The same holds along v.
       const int side_u = a == 0 ? 1 : 0, side_v = b == 0 ? 1 : 0;
       const int quad = 4 * axis + (u < v ? side_u + 2 * side_v : side_v + 2 * side_u);
       fans[static_cast<size_t>(b)][static_cast<size_t>(a)] =

@@ -211,8 +211,8 @@ std::optional<FanCentre> Features::nextCentre(SharpLoop& sharp) const {
 bool Features::take(const FanCentre& centre, const FieldSample& sample, SharpLoop& sharp) const {
   if (centre.isStrip()) return takeStrip(centre, sharp);
   if (!creases_.isOnSurface(sample)) return false;
-  // A fan whose centre is a face vertex is always triangulated patch by patch, without diagonals from the centre: these
-  // could lie in the face of the chunk.
+  // A fan whose centre is a face vertex is always triangulated patch by patch, because some diagonals from its centre
+  // could lie in the face of the chunk; patches use only free diagonals.
   return (centre.kind == FanCentre::Kind::cell_vertex && takeAs(centre, false, sharp)) || takeAs(centre, true, sharp);
 }
 

@@ -100,12 +100,13 @@ class InnerVertices {
       along = other;
       ++others_along;
     }
-    // If the loop has no other sharp side, there is no next point: return the ideal point of `own` itself.
+    // If the loop has no other sharp side, the ideal point of `own` counts once more, so that two sides do not get the
+    // same mean.
     if (others == 0) return ideals_[own];
     if (others == 1) return idealOf(last);
     // The loop has several other sharp sides. If exactly one of them has its ideal point on the crease of `own`, that
-    // point is the next one. Otherwise the crease may end inside the cell: return the point where it meets the loop's
-    // other creases.
+    // point is the next one. Otherwise the crease may end inside the cell, at the point where it meets the loop's other
+    // creases.
     return others_along == 1 ? idealOf(along) : meetingPoint(sharp_.loops[loop], side.corner);
   }
 

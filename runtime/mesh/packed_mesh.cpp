@@ -11,7 +11,7 @@ namespace sgm {
 
 namespace {
 
-/// The vertices and indices that are copied into a range of a packed mesh. The value `first` of an index stands for
+/// The vertices and indices that are copied into a range of a packed mesh. An index with the value `first` refers to
 /// vertices[0].
 struct RangeSource {
   std::span<const Vertex> vertices;

@@ -96,7 +96,7 @@ bool isFree(const SharpLoops& sharp, const SurfaceLoop& loop, uint32_t a, uint32
     if (keys[v].axis == axis || keys[v].corner[axis] != plane) return true;
   Int3 beside = loop.cell;
   beside[axis] += plane == sharp.body.cornerOf(loop.cell)[axis] ? -1 : 1;
-  // The cell is outside of the chunk. Its loops are unknown, and one of them might use the diagonal.
+  // If the cell lies outside of the chunk, its loops are unknown, and one of them might use the diagonal.
   if (beside[axis] < 0 || beside[axis] >= kChunkCells) return false;
   bool is_free = true;
   sharp.body.visitWithin(beside, beside, [&](uint32_t number) {

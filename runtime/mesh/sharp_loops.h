@@ -128,7 +128,7 @@ struct SharpLoop {
   enum class Shape : uint8_t {
     plain,    ///< marching-cubes triangles; with face vertices in chunk faces, a fan around roundedCentre()
     fan,      ///< a fan around `centre`, or a strip, with the face vertices of its sharp sides
-    rounded,  ///< the triangles are those of `plain`, because every fan and strip that was tried is faulty
+    rounded,  ///< the triangles are those of `plain`, because all fans and strips are faulty or swallow another part
   };
 
   uint32_t loop = 0;  ///< index of this sharp loop among all loops of the mesh body

@@ -101,7 +101,7 @@ class LevelOfSeam {
     for (size_t i = 0; i < triangles_end; ++i) {
       const uint32_t a = in_part_[seam_.indices[i]], b = in_part_[seam_.indices[i % 3 == 2 ? i - 2 : i + 1]];
       if (a == kNoMiddle || b == kNoMiddle || !creases_.isSharp(a, b)) continue;
-      // Use only edges of triangles that are loop sides: both ends lie on edges of the same grid square. Other edges
+      // Uses only edges of triangles that are loop sides: both ends lie on edges of the same grid square. Other edges
       // are diagonals of a loop.
       if (!shareSquare(part_.keys[a], part_.keys[b])) continue;
       sides_.push_back(sideBetween(a, b, part_.keys));

@@ -58,8 +58,8 @@ SideOfCrease sideOf(const Mesh& mesh, size_t triangle) {
 
 template <class Mesh>
 void split(Mesh&& mesh, std::pmr::memory_resource* memory) {
-  // next: linked lists of the copies of each vertex: next[v] is the next copy of v, or kNoCopy. set: by vertex: true if
-  // it is a feature vertex that already has the attributes of a side.
+  // next: linked lists of the copies of each vertex; next[v] is the next copy of v, or kNoCopy. set: set[v] is true if
+  // v is a feature vertex that already has the attributes of a side.
   std::pmr::vector<uint32_t> next(mesh.keys.size(), kNoCopy, memory);
   std::pmr::vector<bool> set(mesh.keys.size(), false, memory);
   for (size_t at = 0; at < mesh.indices.size(); at += 3) {

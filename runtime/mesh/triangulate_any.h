@@ -82,8 +82,8 @@ SGM_KERNEL uint32_t* triangulateAnyLoop(const LoopPoint* loop, int n, uint32_t* 
 
 /// Triangulates a seam's loop, whose points lie in one plane. Among the triangulations with the least total area,
 /// chooses the one whose smallest triangle is largest. The total area is least if no two triangles overlap. If the
-/// contours of the two levels cross, the loop crosses itself, and gets the triangles that overlap least. Otherwise the
-/// same as triangulateAnyLoop.
+/// contours of the two levels cross, the loop crosses itself, and gets the triangles that overlap least. In all other
+/// respects the same as triangulateAnyLoop.
 SGM_KERNEL uint32_t* triangulateFlatLoop(const LoopPoint* loop, int n, uint32_t* out) {
   constexpr int kSide = kLongestLoop;
   constexpr int32_t kForbidden = 1 << 24;  // stands for "no triangulation": more than the area of any loop

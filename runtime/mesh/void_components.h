@@ -34,8 +34,8 @@ struct VoidComponent {
 };
 
 /// The voids of a chunk; empty if the chunk is solid. The voids that touch a face come first, in the order of their
-/// first samples; then follows one entry for all voids that touch no face. If more than 63 voids touch a face, the last
-/// entry stands for all further voids. So separate voids may share an entry, but connected ones are never split.
+/// first samples; then follows one entry for all voids that touch no face. If more than 63 voids touch a face, the 63rd
+/// entry also stands for all further ones. So separate voids may share an entry, but connected ones are never split.
 using VoidComponents = std::pmr::vector<VoidComponent>;
 
 /// Returns the voids of a chunk from the signs of its samples (ChunkSamples::signs). Pure.

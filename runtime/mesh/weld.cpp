@@ -11,8 +11,8 @@
 namespace sgm {
 namespace {
 
-/// True if a vertex may have copies in other parts that are welded. Parts meet only in the faces of their chunks. So an
-/// edge vertex that lies inside its chunk belongs to one part only. A feature vertex may always have copies: a face
+/// True if a vertex may have copies among the parts that are welded. Parts meet only in the faces of their chunks. So
+/// an edge vertex that lies inside its chunk belongs to one part only. A feature vertex may always have copies: a face
 /// vertex may lie off its face, and a part may itself contain copies of a feature vertex.
 bool mayBeOneOfMany(const Vertex& v) {
   if (isFeature(v.kind)) return true;

@@ -209,7 +209,7 @@ class SurfaceSearch {
     return found;
   }
 
-  /// Bisects an interval along `direction`, from the place `open` to the place `closed` on the other side of the
+  /// Bisects the interval of distances `open` to `closed` along `direction`, whose ends lie on different sides of the
   /// surface, down to a quarter of a unit. Updates both ends.
   void cut(const ProgramView& view, const Vector3& direction, double& open, double& closed) {
     while (closed - open > kNearest) {

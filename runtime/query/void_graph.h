@@ -33,7 +33,7 @@ class VoidGraph {
   /// Converts a void's number in the chunk that was added last to its number in the graph.
   uint32_t numberOf(uint32_t void_in_chunk) const { return first_.back() + void_in_chunk; }
 
-  // Precondition of all functions below: add() was called for all chunks of the region.
+  // Precondition of the following public functions: add() was called for all chunks of the region.
 
   bool joined(uint32_t a, uint32_t b) { return rootOf(a) == rootOf(b); }
   /// Returns the number of samples in the whole connected void that contains the chunk's void `number`.

@@ -196,7 +196,7 @@ class VoidSearch {
   }
 
   /// Returns the values of `need` that the next pass tries, ascending and evenly spaced. They lie above the largest
-  /// value for which a path is known to exist, and below the smallest value for which none exists.
+  /// value that is known to have a path, and below the smallest value that is known to have none.
   std::vector<int> between() const {
     const int open = first_failing_ - last_holding_ - 1, picked = std::min(open, kRadiiTogether);
     std::vector<int> needs;
@@ -276,8 +276,7 @@ class VoidSearch {
     return voids;
   }
 
-  /// Makes further passes over the region until it is known which is the largest value of `need` for which a path
-  /// exists.
+  /// Makes further passes over the region until the largest value of `need` that has a path is known.
   Result<void> narrow(std::vector<Survey>& looks) {
     learn(looks);
     for (std::vector<int> needs = between(); !needs.empty(); needs = between()) {
@@ -334,8 +333,8 @@ class VoidSearch {
   /// the region in chunks: low_ to high_ (excluded), and the number of chunks along each axis
   Int3 low_, high_, count_;
   std::array<End, 2> ends_;
-  int last_holding_ = 0;   ///< the largest value of `need` for which a path is known to exist
-  int first_failing_ = 1;  ///< the smallest value of `need` for which no path is known to exist
+  int last_holding_ = 0;   ///< the largest value of `need` that is known to have a path
+  int first_failing_ = 1;  ///< the smallest value of `need` that is known to have no path
 };
 
 }  // namespace

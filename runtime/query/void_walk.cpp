@@ -14,8 +14,8 @@ namespace {
 constexpr int kSide = kChunkSamples;
 constexpr size_t kSamples = size_t{kSide} * kSide * kSide;
 constexpr uint64_t kNotReached = std::numeric_limits<uint64_t>::max();
-// An entry of Steps for a sample at which a walk enters the chunk. For all other samples, the entry is the number of a
-// step, 0..26.
+// The entry of Steps for a sample at which a walk enters the chunk, and for samples that no walk reaches. For other
+// samples, the entry is the number of a step, 0..26.
 constexpr uint8_t kStart = 27;
 constexpr size_t kChunksAtOnce = 64;  // number of chunks in a group that is processed together
 // costs of a step along an axis, and of a step across a face's diagonal: their ratio is the square root of 2, to 5 in

@@ -90,8 +90,8 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
     };
     Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, backend, jobs, requests, layer_progress);
     if (!chunks) return chunks.error();
-    // If the progress callback cancels after the last chunk of this layer, meshChunks() still succeeds. But the layers
-    // after this layer are missing then, so the region is cancelled.
+    // If the progress callback cancels after the last chunk of this layer, meshChunks() still succeeds. But then the
+    // next layers are missing.
     if (stopped && z + 1 < counts[2]) return Error{Code::cancelled, "meshing was cancelled"};
     if (planes) planes->add(*chunks, z + 1 == counts[2]);
     if (z == 0) result.extent.lo = chunks->front().grid.origin;

@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// Selects the measures that cost more than sums over the triangles. For sums, a device need not download meshes. But
+/// Selects the measures that cost more than sums over the triangles. Sums need no download of meshes from a device. But
 /// topology needs all meshes of the region at once, and components need the signs of all samples.
 struct WantedMeasures {
   bool topology = false;

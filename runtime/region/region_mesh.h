@@ -14,8 +14,8 @@ struct RegionMesh {
   /// number of solid samples, including those on the region's low faces, but not those on its high faces: 32^3 samples
   /// per chunk are counted
   uint64_t solid_samples = 0;
-  /// number of loops (the surface's polygons in single cells) without sharp features, because these would make the
-  /// surface invalid
+  /// number of loops (the surface's polygons in single cells) that were not sharpened, because sharp features would
+  /// make the surface invalid
   uint64_t rounded = 0;
   ContentHash hash;  ///< hash of the set of the chunks' meshes (hashParts)
 

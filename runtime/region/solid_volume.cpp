@@ -54,8 +54,8 @@ class UpperFaces {
       const uint32_t from = mesh_.indices[i], to = mesh_.indices[i % 3 == 2 ? i - 2 : i + 1];
       const std::array<double, 3> a = place(from), b = place(to);
       if (a[k] != size_[k] || b[k] != size_[k]) continue;
-      // The line integral of Green's theorem along the boundary of the solid part. The surface's open edges run along
-      // this boundary in the opposite direction, so their integral is subtracted.
+      // By Green's theorem, the area is a line integral along the boundary of the solid part. The surface's open edges
+      // run along this boundary in the opposite direction, so their integral is subtracted.
       area -= (a[u] + b[u]) / 2 * (b[v] - a[v]);
     }
     return area + size_[u] * solidLength(k, u, v, corner_is_solid);
@@ -114,7 +114,7 @@ Result<double> borderFlux(const WorldField& world, Backend& backend, JobSystem& 
   for (const ChunkKey& key : keys) {
     const uint8_t faces = upperFaces(key, keys.back());
     if (faces == 0) continue;
-    // Request a seam between each outermost chunk and a virtual neighbour beyond the region. The neighbour is entirely
+    // Requests a seam between each outermost chunk and a virtual neighbour beyond the region. The neighbour is entirely
     // solid or entirely void, like the domain. If the domain is void, the seam covers the part of the chunk's face
     // where the region's border cuts the solid. If the domain is solid, the seam covers the part where the border cuts
     // the void.

@@ -15,8 +15,8 @@ uint32_t bordersOf(const VertexKey& key, const IntBox& extent) {
   uint32_t planes = 0;
   for (int axis = 0; axis < 3; ++axis) {
     if (key.axis == axis) continue;  // the vertex lies strictly between two samples on this axis
-    // A face vertex (a feature vertex in a cell's face) can lie in an outer plane only if the plane has the face's
-    // normal axis. A cell vertex lies inside its cell, so in no plane.
+    // A feature vertex in a face of a cell can lie only in an outer plane that is parallel to the face; a feature
+    // vertex inside a cell lies in no plane.
     if (key.axis >= kFaceVertex && key.axis != kFaceVertex + axis) continue;
     if (key.corner[axis] == extent.lo[axis]) planes |= 1u << 2 * axis;
     if (key.corner[axis] == extent.hi[axis]) planes |= 2u << 2 * axis;

@@ -31,8 +31,8 @@ bool isIn(const VertexKey& key, int face) {
 /// Returns a number that identifies a vertex among all vertices of one border. a, b: the vertex's coordinates along the
 /// border.
 uint64_t placeOf(const VertexKey& key, int32_t a, int32_t b) {
-  // A lateral vertex joins the samples of two levels. Its number `fan` distinguishes it from other lateral vertices at
-  // the same place, but depends on chunks elsewhere in the frame. So this function ignores it.
+  // A lateral vertex lies between the samples of two levels. Its number `fan` distinguishes it from other lateral
+  // vertices at the same place, but depends on chunks elsewhere in the frame. So this function ignores the number.
   const uint32_t fan = key.axis == kLateral ? 0 : key.fan;
   return uint64_t{static_cast<uint32_t>(a)} << 40 | uint64_t{static_cast<uint32_t>(b) & 0xFFFFFF} << 16 |
          uint64_t{key.axis} << 8 | fan;

@@ -18,9 +18,9 @@ namespace {
 constexpr long kConnectMilliseconds = 3000, kMilliseconds = 10000;
 constexpr long kLeastBytesPerSecond = 1000, kSlowSeconds = 4;
 
-/// While an object exists, blocks the signal SIGPIPE for the current thread; afterwards discards a pending one. Writing
-/// to a connection that the server has closed raises SIGPIPE, which by default ends the program. libcurl must not
-/// handle it, because a signal handler would affect the whole process.
+/// Blocks the signal SIGPIPE for the current thread as long as the object exists, and finally discards the signals that
+/// were raised in this time. Writing to a connection that the server has closed raises SIGPIPE, which by default ends
+/// the program. libcurl must not handle it, because a signal handler would affect the whole process.
 class NoPipeSignal {
  public:
   NoPipeSignal() {
@@ -85,8 +85,8 @@ bool beginsAs(std::string_view line, std::string_view lower_case) {
 size_t takeHeader(const char* data, size_t size, size_t count, void* to) {
   Transfer& transfer = *static_cast<Transfer*>(to);
   std::string_view line(data, size * count);
-  // A status line begins another response, for example after a redirection. What was read of the previous response's
-  // header does not apply to it.
+  // A status line begins another response, for example after a redirection. The header fields of the previous response
+  // do not apply to it.
   if (beginsAs(line, "http/")) transfer.file_bytes = transfer.range_first = std::nullopt;
   constexpr std::string_view kName = "content-range:";
   if (!beginsAs(line, kName)) return size * count;

@@ -133,7 +133,7 @@ class Merger {
     std::error_code error;
     fs::create_hard_link(from, to, error);
     if (!error) return pack;
-    // There is no link: the file system has no hard links, or a damaged file already has the pack's name. So the pack
+    // Linking has failed: the file system has no hard links, or a damaged file already has the pack's name. So the pack
     // is copied.
     const auto bytes = readFile(from, pack.bytes);
     if (!bytes) return bytes.error();

@@ -88,9 +88,9 @@ class StoreSource final : public BakedParts {
   }
 
  private:
-  /// Returns the key under which a store may contain a world: the former key (that of an earlier library version) if
-  /// there is one and the store has no index under the current key; otherwise the current key. Precondition: find() has
-  /// searched the store for the world.
+  /// Returns the key under which a store may contain a world: the former key (of version 0.2 of the library) if the
+  /// world has a former key and the store has no index under the current key; otherwise the current key. Precondition:
+  /// find() has searched the store for the world.
   static DiskKey keyIn(OpenStore& store, const BakedWorld& world) {
     return world.former_key && store.lacks(world.key) ? world.former_key() : world.key;
   }

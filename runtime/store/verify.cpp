@@ -54,8 +54,8 @@ class Verifier {
 
  private:
   struct Looked {
-    std::optional<int> part;  ///< part of a chunk that the content is (0: body, 1 + Face: seam); nullopt if the content
-                              ///< is invalid
+    std::optional<int> part;  ///< the kind of part that the content encodes (0: body, 1 + Face: seam); nullopt if the
+                              ///< content is invalid
     BorderSums borders;
   };
   using Pack = std::shared_ptr<const OpenFile>;
@@ -164,8 +164,8 @@ Verified verify(const Folder& store, const WorldFile& world, const Progress& pro
 Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed) {
   Compared compared;
   const std::pmr::vector<TileEntry>& tiles = world.index.tiles;
-  // Draws tiles at random, and one chunk of each tile. Chunks with a surface are preferred: a tile that has no such
-  // chunk is skipped, except in every 16th draw.
+  // Draws tiles at random, and one chunk of each tile. Chunks whose body is not inlined, because it has a surface, are
+  // preferred: a tile without such a chunk is skipped, except in every 16th draw.
   for (uint64_t draw = 0; compared.chunks < chunks && draw < 16 * chunks; ++draw) {
     const uint64_t random = hashCombine(seed, draw);
     const Result<TileRecord> record = world.record(tiles[random % tiles.size()], bakery.memory);

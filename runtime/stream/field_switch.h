@@ -76,8 +76,8 @@ class FieldSwitch {
 
   mutable std::mutex mutex_;  ///< guards the members below
   std::shared_ptr<const WorldField> next_;
-  /// The world returns to this field if the last field could not be drawn. The next requested switch waits until then.
-  /// Null if no return is necessary.
+  /// The field to which the world must return, before any requested switch, because the last field could not be drawn;
+  /// null if no return is necessary.
   std::shared_ptr<const WorldField> back_;
   std::shared_ptr<const WorldField> before_;  ///< the field before the unfinished change
   Turn turn_;

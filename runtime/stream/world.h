@@ -68,8 +68,7 @@ struct WorldStats {
   uint64_t plans = 0;
   /// numbers (WorldState::number) of the current edit state, and of the drawn one
   uint64_t edits = 0, edits_drawn = 0;
-  FieldSwitch::Turn fields;  ///< numbers of the setField() calls: the last one, and the one whose field is
-                             ///< drawn
+  FieldSwitch::Turn fields;  ///< numbers of the last setField() call, and of the call whose field is drawn
   DiskCacheStats cache;
   BakedStats baked;
   size_t surface_bytes = 0, peak_surface_bytes = 0;

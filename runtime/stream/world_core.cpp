@@ -239,8 +239,9 @@ bool WorldCore::planIsDue() const {
   const bool news = planning_with_.edits != edits.number() || planner_lost_ || planning_with_.viewers != viewers_set ||
                     planning_with_.applied != applied || !finished_.empty() ||
                     (!colliders_done_ && collider_changes.empty());
-  // True if the world offers no step, or a step that does not start from the drawn frame. The latter happens if memory
-  // is exhausted, or if the last state of edits changed nothing visible while a newer state waits.
+  // True if the world offers no step, or a step that does not start from the drawn frame. If also no work
+  // is running, an unfinished world is stuck: memory is exhausted, or one of two successive states of edits changed
+  // nothing visible. Then it needs a plan even without news.
   const bool nothing_to_draw = step == nullptr || step->from != applied;
   const bool stuck = !atWork() && !isOverdue() && nothing_to_draw && (!idle_ || !colliders_done_);
   return stuck || news;

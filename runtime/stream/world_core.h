@@ -171,7 +171,7 @@ class WorldCore {
   void setMeshJobs(size_t count) { turns_->setMeshJobs(turn_, mesh_jobs = count); }
   void scheduleMeshing();
   /// Submits prefetching jobs to prefetchers_, as long as there are more requests to prefetch than jobs that wait to
-  /// begin.
+  /// begin, but at most kPrefetchers jobs at a time.
   void schedulePrefetch();
   PlanInput planInput();
   void publish(Plan&& plan);

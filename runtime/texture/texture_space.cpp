@@ -12,8 +12,7 @@ namespace {
 
 /// flag in a chart's number: u is mirrored, because the surface bounds a cavity (the void is inside the shape)
 constexpr Chart kMirrored = 0x8000;
-// chart numbers: of a sweep: kSide its side, kTop its far end, kBottom its near end; of a round shape: side, top and
-// bottom
+// chart numbers of a sweep (side, far end, near end) and of a round shape (side, top, bottom)
 constexpr int kSide = 0, kTop = 1, kBottom = 2;
 constexpr Chart kFirstSide = 2;  ///< number of a prism's first side chart; the charts of its two ends have lower
                                  ///< numbers
@@ -55,8 +54,8 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
     origin_ = pointAt(points[0]);
     const Shape& piece = s.child_count > 0 ? chunk.shapes[chunk.children[s.first_child]] : s;
     square_ = piece.kind == ShapeKind::box;
-    // The orientation of the cross-section (`up`) comes from the first piece: the flat sides of a beam are parallel to
-    // the axes of each of its pieces.
+    // The orientation of the cross-section (`up`) comes from the first piece, not from the scope: the flat sides of a
+    // beam are parallel to the axes of each of its pieces.
     const std::array<float, 9>& rows = piece.frame.rows;
     const Vec3 up = square_ ? Vec3{double{rows[3]}, double{rows[4]}, double{rows[5]}} : Vec3{0, 1, 0};
     line_ = std::make_shared<const SweepLine>(points, up);
@@ -209,7 +208,7 @@ Chart TextureSpace::chartOf(const TexturePoint& middle, const TexturePoint& norm
     }
     case Kind::round: {
       // The side of a truncated cone is inclined: `out` is the component of n along the normal of this inclined side. A
-      // triangle belongs to an end if its normal n has a larger component along the axis.
+      // triangle belongs to an end if the component of its normal n along the axis is larger, and more than half of n.
       const double lean = (size_[0] - size_[1]) / (2 * size_[2]);
       const TexturePoint radial = outwardAt(q);
       const double wide = std::sqrt(product(radial, radial)), whole = std::sqrt(product(n, n));

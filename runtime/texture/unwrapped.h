@@ -9,7 +9,7 @@
 namespace sgm {
 
 /// A vertex of the textured mesh: a copy of a vertex of the original mesh. A vertex has one copy for each combination
-/// of a texture chart and a pair of blended materials in which its triangles use it.
+/// of shape, texture chart, period of the texture and pair of blended materials in which its triangles use it.
 struct Wedge {
   uint32_t vertex = 0;                  ///< index of the vertex of the mesh; the wedge has the position, normal and
                                         ///< label of this vertex

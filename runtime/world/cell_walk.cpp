@@ -20,9 +20,9 @@ CellKey cellKey(const Program& program, int32_t finest_cell, uint32_t layer, Int
   constexpr int kLevelsTogether = 2;
   int32_t kept = finest_cell;
   while (kept <= (cell_edge >> kLevelsTogether)) kept <<= kLevelsTogether;
-  // kept = 0 stands for the complete cell. It is also used for the finest level, which may not show everything in the
-  // cell: with cells of 50 cm, for example, houses have no glazing bars. But derivation of the layers above reads these
-  // finer parts, too, and so requests the complete cell.
+  // kept = 0 stands for the complete cell. In a grammar with layers, even the finest level may not show everything in
+  // a cell: with cells of 50 cm, for example, houses have no glazing bars. So this level does not use the complete
+  // cell. But derivation of the layers above reads these finer parts, too, and so requests the complete cell.
   const Layer& info = program.layers[layer];
   if (!info.by_level || cell_edge < finest_cell || (kept == finest_cell && isWhole(info))) kept = 0;
   return {layer, at, kept};

@@ -57,7 +57,7 @@ class EditLog {
 
   /// Adds the operations that are not yet known. If an error is returned, none is added; if memory runs out, some may
   /// have been added. Returns the regions that change: a box for each brush that appears or disappears. Errors:
-  /// bad_input (no edit log creates an operation like one of these, or two operations with one id have different
+  /// bad_input (no edit log could have created one of the operations, or two operations with the same id have different
   /// content); limit.
   Result<std::vector<IntBox>> merge(std::span<const EditOperation> operations);
   /// Decodes the result of exportBytes(), and merges its operations. Errors: those of merge(); bad_input if the bytes

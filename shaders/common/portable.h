@@ -5,11 +5,11 @@
 // branches. A value that differs from sample to sample has type Real, Int, Uint or Bool; a value that is equal for all
 // samples has type float, int or uint. PF, PI and PU read a parameter word of an op, the same word for all samples; the
 // word's number must be a constant. QF, QI and QU do the same for a number that is not a constant, but below 28; RF, RI
-// and RU for any number. On some backends these reads are slower. gatherReal reads a different word for each sample. No
-// word may be read on the right of && or ||, or in a branch that not all samples take: the invocations of a shader
-// exchange words, and one that does not take part would supply undefined words. Every product or sum that is an operand
-// of a sum must be a local variable declared PRECISE, so that GLSL does not contract it. The headers here have no
-// include guards: a C++ source includes common.h once in each namespace for which it has defined the types (scalar
+// and RU for any number. On some backends these reads are slower. gatherReal can read a different word for each
+// sample. No word may be read on the right of && or ||, or in a branch that not all samples take: the invocations of a
+// shader exchange words, and one that does not take part would supply undefined words. Every product or sum that is an
+// operand of a sum must be a local variable declared PRECISE, so that GLSL does not contract it. The headers here have
+// no include guards: a C++ source includes common.h once in each namespace for which it has defined the types (scalar
 // types below, vectors in backend/cpu/wide.h).
 
 #ifndef __cplusplus

@@ -153,8 +153,8 @@ FN Dual opTruncone(Int px, Int py, Int pz, Params P) {
   PRECISE Real over = radial - rim;
   PRECISE Real cx = maxReal(over, zero);
   PRECISE Real cy = maxReal(cap, zero);
-  // In the half-plane of radius and y, the slanted side is a line segment, and each rim is an end of it. For a point
-  // beside the segment, the distance is that to the segment's line; for a point beyond an end, it is that to the end.
+  // In the half-plane of radius and y, the slanted side is a line segment, whose ends are the rims. The distance of a
+  // point beside the segment is measured to the segment's line; the distance of a point beyond an end, to that end.
   PRECISE Real held = clampReal(along, 0.0f, PF(P, 18));
   PRECISE Real past = along - held;
   PRECISE Real slant2 = lengthSquared2(side, past);

@@ -1,5 +1,5 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // A variant of the shader that does not require a rounding mode, for devices that do not support such a requirement.
-// These devices round to nearest anyway, or they are reported as not exact.
+// These devices are reported as not exact.
 #include "conformance/field.glsl"

@@ -5,5 +5,5 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 
 // A variant of the shader that does not require a rounding mode, for devices that do not support such a requirement.
-// These devices round to nearest anyway, or they are reported as not exact.
+// These devices are reported as not exact.
 #include "mesher/attributes.glsl"

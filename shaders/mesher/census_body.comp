@@ -11,8 +11,8 @@ layout(local_size_x = 64) in;
 
 const uint kPairs = 545u;       // number of pairs of successive rows of samples in a chunk
 const uint kPairsInRun = 9u;    // pairs of rows that each invocation processes; 64 invocations cover all pairs
-const uint kPairsToPlane = 16u; // The first row of pair p has its neighbour in the next plane 33 rows later, in pair p
-                                // + kPairsToPlane.
+const uint kPairsToPlane = 16u; // pair p + kPairsToPlane contains the neighbour, in the next plane (33 rows later), of
+                                // the first row of pair p
 
 // Returns the number of triangles in a row of cells, for 32 cells at once. The cells lie between the rows of samples a,
 // b (next in y), c (next in z) and d (next in both). If a cell has E crossed edges in L loops, it has E - 2 L

@@ -8,8 +8,8 @@ const uint kItemWords = 8u;
 const uint kItemList = 0u;     // offset in `scratch` of the list of records that the item's pruned program consists of
 const uint kItemCount = 1u;    // number of records in this list; 0 for a uniform brick
 const uint kItemFlags = 2u;
-const uint kItemInitial = 3u;  // initial value of the field if pruning removes all records, as float bits; the next
-                               // word is the value's label
+const uint kItemInitial = 3u;  // value of the field before the first record of the list, as float bits; the next word
+                               // is the value's label
 const uint kItemLabel = 4u;
 const uint kItemScale = 5u;    // factor from units to quantised values Q, as float bits
 const uint kItemOwner = 6u;    // offset in `batch` of the chunk's record (for a brick) or of the seam's record (for a
@@ -77,7 +77,7 @@ uint itemOfEntry(uint entry) { return entry & 0xFFFFFu; }
 uint sliceOfEntry(uint entry) { return entry >> 20 & 63u; }
 uint slicesOfEntry(uint entry) { return entry >> 26; }
 
-// A unit of work of the passes that compute attributes: a range of the vertices of one item. It contains the number of
+// A unit of work of the pass that computes attributes: a range of the vertices of one item. It contains the number of
 // the item, the first vertex, and the number of vertices. For a brick, the first vertex is an index into the list of
 // vertices by brick; for a plane, an index among the vertices that are evaluated with the plane's field.
 const uint kUnitWords = 4u;

@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Divides the vertices of all seams that fit into the buffers into units, whose attributes later passes compute. A seam
-// has two planes, one per level; each invocation handles one plane. Vertices on fine edges and lateral vertices are
-// evaluated with the chunk's own field, all others with the coarser level's.
+// Divides the vertices of all seams that fit into the buffers into units, whose attributes a later pass computes. A
+// seam has two planes, one per level; each invocation handles one plane. Vertices on fine edges and lateral vertices
+// are evaluated with the chunk's own field, all others with the coarser level's.
 
 layout(local_size_x_id = 0) in;
 

@@ -160,7 +160,7 @@ void main() {
       int q = quantise(field[s], scale);
       bool solid = inside[s] && q < 0;
       if (inside[s]) scratch[target[s]] = uint(q);
-      // Usually each invocation writes the sign of its own sample. If rows have four samples, the signs of four
+      // Usually each invocation writes the signs of its own samples. If rows have four samples, the signs of four
       // successive invocations form one row, and the first of the four invocations writes them all.
       const bool alone = plane || extent.x != 4u;
       const uint lane = gl_SubgroupInvocationID;

@@ -17,9 +17,9 @@ int norm(ivec3 v) {
   return a.x + a.y + a.z;
 }
 
-// The best triangulation of the part of a loop between two points: of all its triangulations, it has the largest
-// smallest triangle. best: size of that smallest triangle; -1 if the chord between the two points is forbidden. apexes:
-// the apexes of the triangles in pre-order, three bits each.
+// The best triangulation of the part of a loop between two points: the one whose smallest triangle is largest. best:
+// size of this smallest triangle; -1 if the chord between the two points is forbidden. apexes: apexes of the triangles
+// in pre-order, three bits each.
 struct Piece {
   int best;
   uint apexes;

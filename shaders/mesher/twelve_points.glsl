@@ -20,9 +20,9 @@ int measureOf(ivec3 a, ivec3 b, ivec3 c) {
   return n.x + n.y + n.z;
 }
 
-// Returns the apex of a chord's best triangle. A chord is stored in one word. Its lowest four bits are the apex. The
-// other bits are the size of the smallest triangle in the chord's part of the loop, which the best triangulation
-// maximises.
+// Returns the apex of a chord's best triangle. A chord is stored in one word: the apex in the lowest four bits, and
+// above them the size of the smallest triangle in the best triangulation of the chord's part of the loop. Among the
+// triangulations with the least total area, the best is the one whose smallest triangle is largest.
 uint apexOf(uint chord) { return chord & 15u; }
 int bestOf(uint chord) { return int(chord) >> 4; }
 
@@ -31,8 +31,7 @@ Point loop[kLongestLoop];
 uint chord[kLongestLoop * kLongestLoop];
 int total[kLongestLoop * kLongestLoop];  // for each chord: minimum total area of the triangles in its part of the loop
 
-// Considers a loop of n points. For each chord of the loop, computes the best triangulation of the part that the chord
-// cuts off.
+// For each chord of the loop of n points, computes the best triangulation of the part that the chord cuts off.
 void cutLoop(uint n) {
   const int side = 0x7FFFFFF;  // larger than the size of any triangle
   const int never = 1 << 24;   // larger than the area of any loop

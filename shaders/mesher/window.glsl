@@ -29,7 +29,7 @@ uint fillWindow(uint from, uint end) {
         words.y = (slots_word & 0xFFu) | alone << 8 | alone << 16;
       }
       // A record of a fold (items.glsl) has, in its ninth word, a flag that requests the test of the influence box.
-      // Clears this flag if pruning has reduced the record to its first operand.
+      // Clears this flag if pruning has shown that the test is not needed (choice kFirstAlone).
       if (first && choice == kFirstAlone && kind >= kOpCount && lane == 2u) words.x &= ~2u;
       if (first) pieces = copies ? 1u : head >> 16;
       fits = fits && (!first || filled + pieces + 1u < kWindow);

@@ -80,7 +80,7 @@ vec4 cumulus(CloudLayer layer, vec3 d, vec3 to_sun, vec3 sun_light, vec3 behind,
       float density = 0.0, deep = 0.0;
       for (int j = 0; j < 3; ++j) {
         float ahead = j == 0 ? 0.0 : 22.0 * exp2(1.6 * float(j));
-        // The positions ahead are near, so the outline of the cloud there is assumed to be the same as here.
+        // Near positions are assumed to be as far inside the cloud's outline as this one; the farthest, slightly less.
         float at = share + to_sun.y * ahead / kCloudDepth, other = j == 2 ? heap - 0.08 : heap;
         float one = cumulusDensity(p + to_sun * ahead, other, at, j == 0 ? 3 : 1);
         if (j == 0) density = one;

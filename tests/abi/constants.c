@@ -1,6 +1,6 @@
 /*
- * Checks, at compile time, every constant of sgm/sgm.h and the sizes of its enums, so that a change that breaks programs
- * built with the header of an earlier patch version does not compile.
+ * Checks, at compile time, every constant of sgm/sgm.h and the sizes of its enums. So a change that breaks programs built
+ * with the header of an earlier patch version does not compile.
  */
 #include <sgm/sgm.h>
 

@@ -1,4 +1,6 @@
-/* Checks, at compile time, sizes and offsets of sgm.h's structs of streamed worlds, on machines with 64-bit pointers. */
+/*
+ * Checks, at compile time, sizes and offsets of sgm.h's structs of streamed worlds, on machines with 64-bit pointers.
+ */
 #include <sgm/sgm.h>
 
 #include "layout.h"

@@ -54,8 +54,8 @@ done
 if ((failed)); then
   echo "If the change is meant, run: bash $0 $program '$compiler' $path --record" >&2
 fi
-# A deviation from a recorded figure always fails. If there is none, but a figure has not been recorded yet, the test is
-# skipped.
+# A deviation from a recorded figure always fails. Without a deviation, the test is skipped if a figure has not been
+# recorded yet.
 if ((!failed)) && [[ -n $unknown ]]; then
   skip "no figures for '$compiler, $path' and$unknown yet: run with --record"
 fi

@@ -74,8 +74,8 @@ bool costOf(const std::string& text, double t, int runs, Cost& cost) {
   if (!program) return fail(program.error().message);
   cost.instructions = (*program)->instrs.size();
 
-  // Sample a brick of points around the middle of each shape, as meshing does. So no shape is skipped as too far away
-  // by its bounding box.
+  // Sample a brick of points around the middle of each shape, as meshing does, so that no shape is skipped because its
+  // bounding box is far away.
   std::vector<int32_t> x, y, z;
   for (const ProgramGroup& group : (*program)->groups) {
     const IntBox& box = group.influence;

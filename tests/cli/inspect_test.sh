@@ -76,7 +76,7 @@ for format in glb obj ply stl; do
   cp report.json .out
   json 'j.valid && j.measures.watertight && j.preview.triangles === j.measures.triangles && j.preview.of_triangles > 1000'
 done
-# The mesh of a region whose border cuts the ball is open at the cut. Otherwise it must be valid.
+# The mesh of a region whose border cuts the ball is open at the cut. Apart from that, it must be valid.
 same ball.sgm sgm --cell 0.25
 cp report.json .out
 json 'j.valid && j.measures.cell === 0.25 && j.diagnostics.length === 0'

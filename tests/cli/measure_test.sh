@@ -203,8 +203,8 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n
 expect 0 "$SGM" measure inverted.obj --json
 json '!j.valid && j.watertight && j.inside_out === 1 && j.volume < 0 && Math.abs(j.volume + 1 / 6) < 1e-12'
 
-# A damaged file that contains no readable mesh must cause one line of output, which names the place of the damage, and
-# exit status 1.
+# A damaged file that contains no readable mesh must cause one line on standard error, which names the place of the
+# damage, and exit status 1.
 head -c 2000 ball.glb >cut.glb
 expect 1 "$SGM" measure cut.glb
 err_has 'cut.glb: .*at byte'

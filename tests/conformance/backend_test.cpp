@@ -183,8 +183,8 @@ TEST_CASE(
         kernel = b.kernelWeight(shape, 0.6f * r);
         sum.add(kernel);
       }
-      // The device may merge a kernel's value into the sum only if no other instruction reads it. Here another
-      // instruction does.
+      // The device may merge a kernel's value into the sum only if no other instruction reads it. With readers 1 and 2,
+      // another instruction does.
       if (reader == 1) sum.add(kernel);
       if (reader == 2) sum.add(b.binary(Op::multiply, kernel, kernel));
       if (reader == 3) sum.add(b.binary(Op::maximum, t, b.constant(0.01f)));

@@ -1,5 +1,5 @@
-// Tests the conformance suite itself. It must fail for evaluators that were compiled with floating-point contraction (a
-// * b + c as one operation with one rounding); otherwise its success would prove nothing.
+// Tests the conformance suite itself. It must fail for evaluators that were compiled with floating-point contraction,
+// which rounds a * b + c only once; otherwise its success would prove nothing.
 
 #include <iostream>
 

@@ -39,11 +39,8 @@ struct CudaDeviceMachine {
 
   static constexpr bool kAnyPrism = true;
   Backend& device() const { return *cuda; }
-  bool silent() const {
-    return true;
-  }  ///< Vulkan machines report here whether the validation layer found no error;
-     ///< for CUDA always true, because an error that the driver detects makes the
-     ///< batch fail
+  /// Always true: CUDA has no validation layer, and an error that the driver detects makes the batch fail.
+  bool silent() const { return true; }
 };
 
 using TestedMachine = CudaDeviceMachine;

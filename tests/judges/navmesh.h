@@ -122,8 +122,7 @@ class Navmesh {
  private:
   /// The navigation polygons nearest to two positions.
   struct Ends {
-    dtPolyRef first = 0, goal = 0;  ///< first: the polygon nearest to the first position; goal: the polygon nearest to
-                                    ///< the second position; 0 if there is no floor near the position
+    dtPolyRef first = 0, goal = 0;  ///< polygons nearest to the first and to the second position; 0: no floor is near
     std::array<float, 3> at{}, last{};
 
     Ends(const dtNavMeshQuery& query, const std::array<double, 3>& from, const std::array<double, 3>& to) {

@@ -158,8 +158,8 @@ struct Window {
   std::vector<double> areas;  ///< areas of cross-sections, one metre apart, in square metres
 };
 
-/// Returns the window of a path between two halls in which the area of the cross-sections varies least. A window is a
-/// section of twenty metres. Points of the path that are nearer than `hall` metres to either end are left out.
+/// Returns the window of a path between two halls in which the area of the cross-sections varies least. Points of the
+/// path that are nearer than `hall` metres to either end are left out.
 Window leastVaried(CrossSections& sections, const std::vector<Point>& way, double hall) {
   constexpr ptrdiff_t kWindow = 20;
   const std::vector<Point> points = eachMetre(way);

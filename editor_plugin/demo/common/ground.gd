@@ -2,8 +2,8 @@ class_name DemoGround
 extends RefCounted
 ## Finds places in a world where a person can stand. Queries the world's field, so that nothing need be drawn for it.
 
-## Half the edge, in metres, of the first box in which anchors are searched; the box grows by factors of 2 until it
-## contains anchors.
+## Half the edge, in metres, of the first box that is searched for anchors; it is doubled, up to LAST_REACH, until a
+## suitable anchor is found.
 const FIRST_REACH := 400.0
 const LAST_REACH := 3200.0
 ## Free height above the feet that a person needs, metres.
@@ -33,7 +33,7 @@ static func below(world: SgmWorld3D, place: Vector3, length := 64.0) -> Vector3:
 
 ## Returns the transform of the player's starting place, for any seed and parameters. The function takes the anchor of
 ## [param kind] in free space that is nearest to [param around]. The place is in the beginning of the longest passage
-## that leads away from this anchor, or on the ground near the anchor if there is no passage. If there is no such
+## that leads away from this anchor, or on the ground near the anchor if no passage does. Without such an
 ## anchor, the place is the ground below [param around].
 static func start(world: SgmWorld3D, kind: String, around: Vector3) -> Transform3D:
 	var reach := FIRST_REACH

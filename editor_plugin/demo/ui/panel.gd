@@ -32,7 +32,7 @@ func set_up(world: SgmWorld3D) -> void:
 	_build()
 
 
-## Adds a control below the sliders: a setting that only the current demo scene has (cave, city, valley or sky).
+## Adds a control that only the current place has, below the sliders.
 func add_extra(control: Control) -> void:
 	_extras.add_child(control)
 

@@ -9,11 +9,11 @@
 
 namespace sgm_godot {
 
-/// Sets the property parameters/NAME, materials/NAME or colors/NAME. Returns the effect of the change; nullopt if
-/// `name` has none of these three forms.
+/// Sets the property parameters/NAME, materials/NAME or colors/NAME. Returns the effect of the change; nullopt for
+/// any other name.
 std::optional<Settings::Effect> setNamed(Settings& settings, const std::string& name, const Variant& value);
-/// Returns the value of the property parameters/NAME, materials/NAME or colors/NAME. nullopt if `name` has none of
-/// these three forms, or if neither the settings nor the grammar have a parameter NAME.
+/// Returns the value of the property parameters/NAME, materials/NAME or colors/NAME; nullopt for any other name, or if
+/// neither the settings nor the grammar have a parameter NAME.
 std::optional<Variant> namedValue(const Settings& settings, const sgm_grammar* grammar, const std::string& name);
 /// Returns the value to which the inspector reverts the property; nil if there is none.
 Variant namedDefault(const sgm_grammar* grammar, const std::string& name);

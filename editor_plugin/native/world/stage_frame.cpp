@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr uint64_t kBytesAFrame = 4 << 20;
-// maximum number of pending uploads; while there are as many, no events are taken from the runtime
+// maximum number of pending uploads; at or above this number, no events are taken from the runtime
 constexpr size_t kMaxWaiting = 512;
 
 }  // namespace

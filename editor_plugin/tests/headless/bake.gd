@@ -164,7 +164,7 @@ func _anchors(scene: Node3D) -> void:
 
 
 func _bare_project() -> void:
-	# The harness sets GODOT. OS.get_executable_path() is no alternative: if the engine was unpacked with a dynamic
+	# The harness sets GODOT. OS.get_executable_path() does not serve here: if the engine was unpacked with a dynamic
 	# loader of its own, it returns the path of that loader.
 	var godot := OS.get_environment("GODOT")
 	if not _checks.check(not godot.is_empty(), "GODOT names the engine, as tests/run.sh sets it"):
@@ -333,7 +333,8 @@ static func _has_color(scene: Node3D, wanted: Color) -> bool:
 	return false
 
 
-# Returns all files in the folder, including unfinished ones, whose names begin with a dot: none of these must be left.
+# Returns all files in the folder, including unfinished ones, whose names begin with a dot: the plugin must leave
+# no unfinished file.
 static func _files() -> PackedStringArray:
 	var folder := DirAccess.open(FOLDER)
 	folder.include_hidden = true

@@ -1,6 +1,6 @@
 extends SceneTree
 ## Tests the demo's places as a player uses them: each is entered from the menu, walked through, dug in, generated again
-## with other seeds and left.
+## and left.
 
 const Checks := preload("res://tests/lib/checks.gd")
 ## Seconds without progress after which a world counts as stuck. Its threads have a low priority, and other tests may

@@ -247,8 +247,8 @@ class ObjReader {
   }
 
   /// Parses an index, which counts from 1. A negative index counts backwards from the last element read so far; `there`
-  /// is the number of these elements. Sets `out` to kNoValue if the index is invalid. Returns false if there are no
-  /// digits.
+  /// is the number of these elements. Sets `out` to kNoValue if the index is invalid. Returns false if the text
+  /// does not begin with digits.
   [[gnu::always_inline]] bool number(const char*& at, const char* end, size_t there, Reach& reach, uint32_t& out) {
     // Parse the digits here rather than by a library function, because half of a file consists of such numbers. A
     // number beyond 32 bits counts as an index that is too large.

@@ -58,7 +58,7 @@ class PlyTextValues {
   /// True if all elements must be read: line ends have no meaning, so only the total number of values tells whether the
   /// body matches the header.
   bool mustReadAll() const { return layout_ == Layout::words; }
-  /// True if the body has more lines than the header declares records for them.
+  /// True if the body has more lines than the number of records that the header declares.
   bool hasSpareLines() const;
   /// Adds notes after the last read. whole: all elements were read. Error: bad_input if there are more values than the
   /// header declares, and their meaning is ambiguous.

@@ -146,8 +146,8 @@ class StlTextReader {
   TriangleMesh mesh_;
 };
 
-/// True if the file contains all triangles that its header counts, and after them only a few bytes, as some programs
-/// append. If many bytes follow, the file probably has another format, in which the bytes at the place of the count
+/// True if the file contains all triangles that its header counts, and after them only as many bytes as some programs
+/// append. If more bytes follow, the file probably has another format, in which the bytes at the place of the count
 /// happen to be a small number.
 bool hasLittleBehind(std::span<const std::byte> bytes) {
   constexpr uint64_t kMaxTrailer = 4096;

@@ -117,7 +117,7 @@ class CpuBatch final : public ChunkBatch {
     cancel();
     wait();
     // The job system may start some of the batch's worker jobs only later. They then find no chunk to mesh, but keep
-    // the state alive until then, so the memory of its job list is freed now.
+    // the state alive until then, so the memory of its contents is freed now.
     state_->jobs.clear();
     state_->meshes.clear();
     state_->pool.reset();
@@ -171,7 +171,7 @@ class CpuBackend final : public Backend {
         share.release();
       }
     } catch (const std::bad_alloc&) {
-      // There is no memory to submit more worker jobs. So fewer threads mesh this batch; the thread that waits for the
+      // Memory to submit more worker jobs is missing. So fewer threads mesh this batch; the thread that waits for the
       // batch meshes too.
     }
     return std::unique_ptr<ChunkBatch>(std::move(batch));

@@ -68,8 +68,8 @@ bool sampleChunk(const ChunkKernels& kernels, const ProgramView& field, const Ch
   if (scratch.whole.solid()) fillSigns(samples, all);
   if (scratch.whole.solid() || scratch.whole.empty()) return false;
 
-  // Each box is bounded together with one more layer of samples on every side. So if the field is uniform in a box, it
-  // does not change sign on any edge that leads out of the box.
+  // Each box is bounded together with one more layer of samples on every side. So if a box is uniform, the field does
+  // not change sign on any edge that leads out of the box.
   for (int octant = 0; octant < 8; ++octant) {
     SampleBox half;
     for (size_t a = 0; a < 3; ++a) {

@@ -1,6 +1,6 @@
 // Defines the types that shaders/common needs (Real, Int, ...) as Highway vectors. evaluate_wide.cpp includes this file
 // once for each instruction set, inside that set's namespace, so the file has no include guard. The code never uses
-// MulAdd, Sqrt and the approximate reciprocals (arithmetic contract in runtime/README.md, rule 2).
+// MulAdd, Sqrt or the approximate reciprocals (arithmetic contract in runtime/README.md, rule 2).
 
 namespace hn = hwy::HWY_NAMESPACE;
 

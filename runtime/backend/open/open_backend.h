@@ -31,7 +31,7 @@ struct BackendRequest {
   /// device cannot mesh.
   std::string instruction_set;
   /// Vulkan: the engine's device; null: the backend creates a device. CUDA: the Vulkan device in whose memory meshes
-  /// stay, with external_memory set; null: there is none.
+  /// stay, with external_memory set; null: meshes do not stay in the memory of a Vulkan device.
   std::shared_ptr<const vulkan::BorrowedDevice> external = nullptr;
   /// CUDA: the engine's context; null: a new one is used
   std::shared_ptr<const cuda::BorrowedContext> external_context = nullptr;

@@ -140,8 +140,8 @@ class Planner {
     return appendTape(uniform, plan_.tape_scratch, plan_.words, tape);
   }
 
-  /// Returns an upper bound of the number of words for units. A unit has as many vertices as a subgroup has
-  /// invocations, so at least 8; only the last unit of each item may have fewer.
+  /// Returns an upper bound of the number of words for units. A unit has at least as many vertices as a subgroup has
+  /// invocations, which is at least 8; only the last unit of each item may have fewer.
   static uint64_t unitWords(uint64_t vertices, uint64_t items) { return (vertices / 8 + items) * batch::kUnitWords; }
 
   uint64_t scratchWords() const {

@@ -105,7 +105,7 @@ class CommandRing {
   explicit CommandRing(Queue& queue);
   Result<void> fill(Commands::Slot& slot, const CommandRingOptions& options);
   Result<Commands::Slot*> findSlot(uint64_t nanoseconds);
-  /// Waits at most this long until some slot is no longer in recording; returns whether there is such a slot.
+  /// Waits at most this long until some slot is no longer in recording; returns false on a timeout.
   bool awaitRecorded(uint64_t nanoseconds);
 
   Queue& queue_;

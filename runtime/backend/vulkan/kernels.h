@@ -92,7 +92,7 @@ class Kernels {
   /// One pipeline per kernel. While the pipelines are being replaced, some may support more kinds of instructions than
   /// others.
   std::array<Made, kernels> made_;
-  bool warned_ = false;  ///< true if the warning that pipelines cannot be created was sent; it is sent once
+  bool warned_ = false;  ///< true if a warning was sent (see KernelNews::warn); only one is sent
 
   std::mutex mutex_;
   uint64_t kinds_ = 0;   ///< kinds of instructions that the pipelines support

@@ -27,7 +27,7 @@ enum class MemoryKind : uint8_t {
 inline constexpr size_t kMemoryKinds = 3;
 
 /// Returns the index of the best memory type among those in `allowed` (one bit each); -1 if none is suitable. unified:
-/// host and device share one memory, so every memory type is fast for both. Pure.
+/// host and device share their memory, so it is fast for both. Pure.
 int chooseMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed, MemoryKind kind, bool unified);
 
 struct MemoryOptions {
@@ -109,8 +109,8 @@ class Memory {
   friend class Buffer;
   struct Block;
   void give(Buffer& buffer) noexcept;
-  /// Frees the buffer's range. If the block of the range is no longer needed, returns the block, which the caller must
-  /// destroy; otherwise returns null. Precondition: the mutex is held.
+  /// Frees the buffer's range. Returns its block if the block is no longer needed (the caller must then destroy it),
+  /// otherwise null. Precondition: the mutex is held.
   std::unique_ptr<Block> giveRange(const Buffer& buffer) noexcept;
   Result<Block*> addBlock(MemoryKind kind, VkDeviceSize bytes, bool whole);
   Result<void> fill(Block& block, MemoryKind kind, VkDeviceSize bytes);

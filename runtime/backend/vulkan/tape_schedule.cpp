@@ -183,8 +183,9 @@ class Scheduler {
         fold_rank = rank;
       }
       if (warps) place_stage[n.group] = n.stage + 1;
-      // `stage` orders all nodes by turn; ops that only join values all have the same turn. Within that turn, `step`
-      // orders them by kind. In both orders, a node comes after the nodes whose results it reads.
+      // `stage` is the number of the node's sweep. A sweep runs its nodes by turn (sweepRank); all ops that only join
+      // values have the same turn. Nodes of one turn run by `step`, then by kind. `stage` and `step` are chosen so that
+      // a node runs after the nodes whose results it reads.
       n.step = 0;
       TapeScratch::forEachValue(n, [&](size_t v) {
         const TapeScratch::Value& read = values_[v];

@@ -134,8 +134,8 @@ int openNamelessFile([[maybe_unused]] const fs::path& folder) {
 int openScratchFile(const fs::path& folder) {
 #ifdef O_TMPFILE
   const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC | O_EXCL, 0400);
-  // If O_TMPFILE has failed, creates a named file and removes its name at once. If the cause is the folder (missing or
-  // not writable, say), creating the named file fails, too.
+  // If O_TMPFILE has failed, creates a named file and removes its name at once. If the folder is the cause (it is
+  // missing or not writable), this fails, too.
   if (file >= 0) return file;
 #endif
   std::string name = (folder / "sgm_scratch_XXXXXX").string();

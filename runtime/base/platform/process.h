@@ -130,13 +130,12 @@ class Cancellation {
 
  private:
   friend class ProcessExchange;
-  File waiting_, asking_;  ///< The threads that wait for a process also wait for this pipe: its read end and its write
-                           ///< end. request() wakes them through it.
+  File waiting_, asking_;  ///< read end and write end of the pipe by which request() wakes the waiting threads
 };
 
 struct RunSettings {
-  std::string_view input;                         ///< bytes to write to the process's standard input; ignored if its
-                                                  ///< standard input is not a pipe
+  std::string_view input;                         ///< bytes for the process's standard input; ignored if that stream
+                                                  ///< is not a pipe
   std::optional<std::chrono::milliseconds> time;  ///< maximum run time (wall clock), after which the process is killed;
                                                   ///< nullopt: no limit
   size_t max_output = SIZE_MAX / 2;  ///< limit of standard output in bytes; if it is exceeded, the process is killed

@@ -29,8 +29,7 @@ class [[nodiscard]] Nested {
 };
 
 /// The work and memory that the derivation of one cell has used, the error that ended it, and its notes on shapes left
-/// out. Each message contains a place in the grammar (span), and the derivation path of the rule use that was active
-/// (activation).
+/// out. Each message contains a place in the grammar (span) and the derivation path of the activation.
 class Budget {
  public:
   Budget(const CellInputs& in, const Activations& activations, const Draft& draft)

@@ -36,8 +36,8 @@ struct CellContext {
   CellContext(const CellContext&) = delete;
   CellContext& operator=(const CellContext&) = delete;
 
-  /// True if shapes with this `detail` (units; 0: none) can be left out. This is so if the derivation serves only
-  /// levels that do not show such shapes, and if no other shape depends on them.
+  /// True if shapes with this `detail` (units; 0: none) can be left out: the derivation serves only levels that do not
+  /// show such shapes, and no other shape depends on them.
   bool skips(int32_t detail, const Env& env) const { return !env.whole && detail > 0 && coarse_edge > detail; }
 
   const CellInputs in;

@@ -52,7 +52,8 @@ class Evaluator {
   Value evaluateBuiltin(const ExprNode& node, const Env& env);
   Value evaluatePure(const ExprNode& node, const Env& env);    ///< arithmetic
   Value evaluateRandom(const ExprNode& node, const Env& env);  ///< rand, chance
-  /// evaluates calls of the functions cellnoise and fractal, and of the methods point and links of cells and faces
+  /// evaluates calls of the functions cellnoise and fractal, of the methods point and links of a cell, and of the
+  /// method point of a face
   Value evaluateCellular(const ExprNode& node, const Env& env);
   Value evaluateBranch(const ExprNode& node, const Env& env);
   Value evaluateQuery(const ExprNode& node, const Env& env);

@@ -58,8 +58,8 @@ BallProof proveBall(const Ball& ball, BoxContent wanted, const std::function<Box
       const BoxContent found = content(piece);
       if (found == wanted) continue;
       if (found != BoxContent::unknown) return proof;
-      // If the middle position of the piece lies in the ball, and is proven to be not `wanted`, the proof fails: the
-      // search ends early.
+      // If the middle position of the piece lies in the ball and is not `wanted`, the proof has failed, and the search
+      // ends early.
       const IntBox middle = onePosition(middleOf(piece));
       if (meets(ball, middle) && content(middle) != wanted) return proof;
       halve(piece, halves);

@@ -162,8 +162,8 @@ void runSplit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out)
     const double rest = std::max(0.0, length - place.middle - 0.5 * place.size);
     const double below = std::min(low, kSeamOverlap);
     // Each part overlaps its neighbours, so the scope of a part is longer than its place by up to two overlaps. If the
-    // rigid parts of a nested split were sized for the place alone, they leave a gap of this length at the end of the
-    // scope. Then the last part is extended to fill the gap.
+    // rigid parts of a nested split are sized for the place alone, they leave such a gap at the end of the scope; the
+    // last part is then extended to fill it.
     const bool last = &place == &layout.places.back();
     const double above = !last ? std::min(rest, kSeamOverlap) : rest <= 2 * kSeamOverlap ? rest : 0;
     Vec3 at, scope = env.scope;

@@ -201,8 +201,8 @@ void runWfc(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   const uint64_t most = std::min(kMaxVisits * (places + kMaxVisits), c.in.limits.steps / kSearchShare);
   const PathKey key = env.key.child(kWaveSalt + s.ordinal, 0);
   const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most, c.in.limits.bytes);
-  // A unit of work counts as only a fraction of a step. So a cell rarely exceeds its limit of steps, even if a hundred
-  // of its scopes search for tiles in vain. (A cell that exceeds the limit fails completely.)
+  // A unit of work counts as only a fraction of a step. So a cell rarely exceeds its limit of steps, which would fail
+  // the whole cell, even if the searches of a hundred scopes find no tiles.
   if (!c.budget.step(result.work / kVisitsOfStep, s.span, env.activation)) return;
   if (result.end != WaveEnd::solved) return noteNoTiles(s, standing, lattice, result, c, env);
   uint64_t number = 0;

@@ -83,8 +83,8 @@ class FloorLayout {
     return out;
   }
 
-  /// Adds corridor strips along walls. Where two such walls meet, their strips overlap. At a free end, where no further
-  /// such wall follows, the strip stops at the face of the wall that crosses its way.
+  /// Adds corridor strips along walls. Where two of these walls meet, their strips overlap; at a free end, a strip
+  /// stops at the face of the wall that it runs into.
   void corridor(const std::vector<bool>& walls, Carving& out) const {
     std::vector<int> degree(graph_.corners.size(), 0);
     for (size_t e = 0; e < walls.size(); ++e) {

@@ -24,9 +24,9 @@ struct TreemapRow {
   bool last = false;  ///< true: the row fills all of the remaining space
 };
 
-/// Sorts the weights in descending order, and divides them into rows. Each row has the number of parts that makes its
-/// parts most nearly square. The caller may move a row to the other end of the remaining space, or permute its parts:
-/// this changes the lengths of the parts' edges by at most `step`. weights: 1e-6 to 1e6.
+/// Divides the weights, in descending order, into rows. Each row has the number of parts that makes its parts most
+/// nearly square. The caller may move a row to the other end of the remaining space, or permute its parts: this changes
+/// the lengths of the parts' edges by at most `step`. weights: 1e-6 to 1e6.
 std::vector<TreemapRow> squarifiedRows(const PlanRect& whole, std::span<const double> weights, int32_t step);
 
 /// Returns the rectangles of the parts of rows from squarifiedRows(). The caller may have permuted the parts of rows

@@ -246,7 +246,7 @@ class TileSearch {
         if (!narrow(*other, fits)) return false;
       }
     }
-    // asked_ contains every changed place; a place that changed again is contained more than once.
+    // asked_ contains every changed place; a place that changed again after its visit is contained more than once.
     for (const uint32_t place : asked_) wait(place);
     asked_.clear();
     return true;

@@ -44,7 +44,7 @@ void Symbols::reportUnknownName(const Span& span, NameId name, const Scope& scop
                                              : join({"add `let ", word, " = ...;`, or `param ", word, " = ...;`"})));
 }
 
-/// Handles a receiver (the name before a dot) that is no known name: if it was probably meant as an imported file,
+/// Handles a receiver (the name before a dot) that is not a known name: if it was probably meant as an imported file,
 /// reports that nothing is imported under this name and returns true. Returns true without an error if the name may be
 /// declared in text that failed to parse.
 bool Symbols::reportMissingImport(const ExprNode& receiver, const Scope& scope, bool shape) {

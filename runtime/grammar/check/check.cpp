@@ -63,7 +63,7 @@ void checkHeads(CheckContext& check) {
 /// Checks rules that cannot be reached from any start, and warns of them. This includes rules that are called only by
 /// such rules.
 void checkUnreached(CheckContext& check, const Symbols& symbols, RuleTypes& rules, Statements& statements) {
-  // No warnings after errors: statements with errors are incomplete, so a call of the rule may be missing.
+  // No warnings after errors: a statement with an error may contain the call that uses the rule.
   const bool warns = check.sink.errorCount() == 0 && symbols.areLayersKnown() && !check.program.layers.empty();
   std::vector<uint32_t> unreached;
   for (uint32_t r = 0; r < check.program.rules.size(); ++r)

@@ -20,7 +20,7 @@ namespace sgm {
 
 struct CheckFindings {
   std::vector<RuleCall> calls;
-  /// true: the program uses an unknown name; a part of the text that could not be parsed may declare it
+  /// true: the program uses an unknown name that may be declared in a part of the text that failed to parse
   bool uses_lost = false;
 };
 

@@ -46,13 +46,12 @@ void cutsOf(const Program& program, DiagnosticSink& sink, StmtId id, bool first)
       return;
     }
     case StmtKind::extrude:
-      // The extruded shape precedes the statements of the block. So the first statement of this block may be a cut:
-      // there is something that it can cut.
+      // The extruded shape precedes the statements of the block, so a cut that comes first has an effect.
       if (s.body != kNoId) cutsIn(program, sink, s.body);
       return;
     case StmtKind::treemap:
-      // The shapes of a room's or corridor's open space precede the statements of the room's block. So the first
-      // statement of this block may be a cut: there is something that it can cut.
+      // The open space of a room or corridor precedes the statements of its block, so a cut that comes first has an
+      // effect.
       for (uint32_t i = 0; i < s.children.count; ++i) {
         const StmtId child = program.idAt(s.children, i);
         const bool open = program.ast.parts[s.parts.first + i].floor != FloorPart::facade;

@@ -16,9 +16,9 @@ class LayerLevel {
  public:
   explicit LayerLevel(CheckContext& check) : check_(check) {}
 
-  /// Sets StmtNode::layer_level in the start rules of layers and in the overrides that may apply there. Precondition:
-  /// all rules and overrides are checked. An `inner` statement stands for the content that an override replaces:
-  /// reports an error if it is nested in other shapes although this content may contain a cut of the domain.
+  /// Sets StmtNode::layer_level in the start rules of layers and in the overrides that may apply there. Reports an
+  /// error if an `inner`, which stands for the content that an override replaces, is nested in other shapes although
+  /// this content may contain a cut of the domain. Precondition: all rules and overrides are checked.
   void mark();
 
  private:

@@ -10,8 +10,8 @@ namespace sgm {
 /// Precondition: checkDomain() has run.
 void checkLayers(CheckContext& check, Symbols& symbols, Types& types);
 
-/// Reports an error if the derivation of a layer reaches a probe or a query of another layer which the first layer does
-/// not name in its `uses`. Precondition: Rule::calls is complete.
+/// Reports an error if the derivation of a layer reaches a probe or a query of a layer that its `uses` does not name,
+/// such as the layer itself. Precondition: Rule::calls is complete.
 void checkAskedLayers(CheckContext& check, const RuleUses& uses);
 
 }  // namespace sgm

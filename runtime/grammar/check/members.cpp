@@ -94,7 +94,7 @@ Type Types::checkMember(ExprId id) {
   const ExprId of = check_.child(n, 0);
   const std::string_view word = check_.text(n.name);
   if (check_.node(of).kind == ExprKind::name) {
-    // Here the member is of the form module.name. Such a name refers to a let or a field without arguments.
+    // The member may be of the form module.name, which refers to a let or a field without arguments.
     const NameId receiver = check_.node(of).name;
     const Symbol* const found = symbols_.find(scope_.module, receiver);
     if (!scope_.hides(receiver) && found != nullptr && (found->import || found->asset)) {

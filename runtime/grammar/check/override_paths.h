@@ -15,7 +15,8 @@ namespace sgm {
 struct WrittenPath;
 struct WrittenStep;
 
-/// Resolves each step of a path to a rule: one of the rules that the rule of the previous step calls.
+/// Resolves each step of a path to a rule: the first step to the start rule of a layer, each other step to a rule that
+/// the rule of the previous step calls.
 class OverridePaths {
  public:
   /// calls: the calls in all rules that can be reached from the layers' start calls.

@@ -114,7 +114,7 @@ void Overrides::findTags() {
   if (!found.empty()) tagRooms();
 }
 
-/// If an override by tag names a room, turns the room's content into a block with that tag.
+/// Turns the content of each room whose tag (forEachRoom()) is overridden into a block with that tag.
 void Overrides::tagRooms() {
   // for each room: the index in Ast::ids of the id of its statement, and its tag
   std::vector<std::pair<uint32_t, uint16_t>> rooms;

@@ -151,8 +151,8 @@ void Statements::checkStatement(StmtId id, bool shrunk) {
   }
 }
 
-/// Checks transform and repeat. shrunk: whether the enclosing statements are sure to make the scope smaller. A
-/// transform can do so, too; for the copies of a repeat this is not assumed.
+/// Checks transform and repeat. shrunk: see RuleCall::shrunk. A `size` in the transform counts as making the scope
+/// smaller, too, but not in a repeat.
 void Statements::checkTransform(const StmtNode& s, bool shrunk) {
   const size_t outside = scales_.size();
   const bool copied = s.kind == StmtKind::repeat;

@@ -35,7 +35,7 @@ class Symbols {
   /// Returns the meaning of a name in a module; nullptr if the module does not declare the name.
   const Symbol* find(uint32_t module, NameId name) const;
 
-  /// Must be called once the layers are sorted. If sorting fails, it is not called; then unknown layers are not
+  /// Must be called after the layers are sorted. If sorting fails, it is not called; then unknown layers are not
   /// reported, since they may be a consequence of that error.
   void setLayersKnown() { layers_known_ = true; }
   bool areLayersKnown() const { return layers_known_; }
@@ -50,7 +50,7 @@ class Symbols {
   bool usesWhatIsLost() const { return uses_lost_; }
 
   /// Sets ref, id and qualifier of a call or a name. If the receiver (the part before the dot) is a module, it is
-  /// removed from the node. Returns false only if the receiver is a value. An unknown name is reported, and its ref
+  /// removed from the node. If it is, or is taken for, a value, returns false. An unknown name is reported, and its ref
   /// stays Ref::none. shape: the context requires a call of a rule or a primitive.
   bool resolveCallee(ExprId call, const Scope& scope, bool shape);
 

@@ -182,7 +182,7 @@ class WholeNumbers {
   }
 
  private:
-  /// A head of a rule, with its body: the scope in which the slots of local names are counted.
+  /// A head of a rule, or an override, with its body: the scope in which the slots of local names are numbered.
   struct Frame {
     uint32_t rule;
     Span head;
@@ -306,7 +306,7 @@ void warnOfMaterials(const Program& program, DiagnosticSink& sink) {
                                 : std::pair(uses[material], -int64_t{place->second.begin});
   };
   for (const auto& [material, span] : first) {
-    if (material == 0) continue;  // material 0 stands for all names that occur only in rules that are never derived
+    if (material == 0) continue;  // the empty name, which stands for no material
     for (uint32_t other = 1; other < program.materials.size(); ++other) {
       const std::string_view name(program.materials[material]), theirs(program.materials[other]);
       if (!misspelt(name, theirs) || rank(material) > rank(other)) continue;

@@ -108,7 +108,8 @@ void reportUnmet(CheckContext& check, const PartNode& part, const SocketNode& so
                      suggestion.hintOr(join({"give it to the ", across, " of a tile, or to the border", also})));
 }
 
-/// Reports each side whose labels match no side of any tile in any rotation; such labels are probably misspelt.
+/// Reports each written side whose labels match no side of any tile, in any rotation, or of the border; such labels are
+/// probably misspelt.
 void checkAnswers(CheckContext& check, const StmtNode& s) {
   if (check.sink.errorCount() > 0) return;
   const WaveNode& wave = check.program.ast.waves[s.extra];

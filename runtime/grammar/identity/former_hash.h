@@ -1,6 +1,6 @@
 #pragma once
-// The program hash of version 0.2: the hash of the text that printMeaning() prints. Needed to find journals and stores
-// written by version 0.2.
+// The program hash of version 0.2, computed from the texts that printMeaning() prints and from the assets. Needed to
+// find journals and stores written by version 0.2.
 
 #include <cstdint>
 

@@ -38,8 +38,8 @@ NameId parseText(ParseContext& in, std::string_view of_what);
 /// Like parseName(), for the name in a declaration: words of the language are errors.
 NameId parseNewName(ParseContext& in, std::string_view of_what);
 
-/// Ends panic mode by skipping the part of the text that contains the error; this part began with the token at index
-/// `first`.
+/// Ends panic mode: skips the rest of the part of the text that contains the error. This part begins with the token at
+/// index `first`.
 void recover(ParseContext& in, Level level, size_t first);
 
 /// Calls `parse_one()` for each statement or part up to the '}' or the end of the text, and recovers after errors.

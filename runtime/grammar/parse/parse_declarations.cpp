@@ -17,7 +17,7 @@ namespace {
 struct DeclarationForm {
   std::string_view word;  ///< the word that starts the declaration
   void (*declare)(ParseContext&);
-  /// true: the declaration may be what bounds shapes, so if it fails to parse, shapes may wrongly seem unbounded
+  /// true: the declaration may bound shapes, so if it fails to parse, shapes may wrongly seem unbounded
   bool may_bound;
 };
 

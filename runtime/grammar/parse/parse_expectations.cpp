@@ -50,8 +50,7 @@ void parseCondition(ParseContext& in, Expectation& e) {
   e.value = parseExpression(in);
 }
 
-/// Parses `(CELLS)` behind the word `block`, and returns this number, the size of a block in cells. Returns 0 after an
-/// error.
+/// Parses `(CELLS)` behind the word `block`, and returns CELLS, the edge of a block in cells. Returns 0 after an error.
 int32_t parseBlockSize(TokenStream& tokens) {
   tokens.expect(Tok::open_paren, "`(`");
   const Token& cells = tokens.peek();

@@ -78,7 +78,7 @@ ExprId parseParenthesised(ParseContext& in) {
   return addOperation(in, nodeOf(ExprKind::vector), parts, begin);
 }
 
-/// Parses `query clear of LAYER` or `query inside RADIUS of LAYER`.
+/// Parses `query clear RADIUS of LAYER` or `query inside RADIUS of LAYER`. RADIUS may be omitted.
 ExprId parseQuery(ParseContext& in) {
   TokenStream& tokens = in.tokens;
   const Span begin = tokens.here();

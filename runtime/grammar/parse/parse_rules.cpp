@@ -43,8 +43,8 @@ void addHead(ParseContext& in, NameId name, bool morphic, const Span& name_span,
   addItem(in, ItemKind::alternative, index, begin, alternatives.size() - 1);
 }
 
-/// Consumes the first word of a clause, for example `weight`. repeated: true: the head already has such a clause, so an
-/// error is reported.
+/// Consumes the first word of a clause, for example `weight`. repeated: whether the head already has such a clause,
+/// which is an error.
 void takeClause(TokenStream& tokens, bool repeated) {
   if (repeated)
     tokens.fail(tokens.here(), codes::kDuplicate, join({"this head has a second `", tokens.text(), "`"}), kRemoveOne);

@@ -15,7 +15,7 @@ namespace {
 
 /// The syntax of a kind of statement.
 struct StmtForm {
-  std::string_view word;  ///< the word with which such a statement starts in a block; empty if there is no such word
+  std::string_view word;  ///< the keyword that starts such a statement in a block; empty: none
   StmtId (*parse)(ParseContext&) = nullptr;
 };
 
@@ -88,8 +88,8 @@ constexpr StmtForm formOf(StmtKind kind) {
   return {};
 }
 
-/// Calls `visit(form)` for each kind of statement until a call returns true, and returns that form. Returns an empty
-/// form, as the end marker, if no call returns true.
+/// Calls `visit(form)` for each kind of statement until a call returns true, and returns that form. If no call returns
+/// true, returns the empty form that marks the end of the kinds.
 template <typename Visit>
 StmtForm findForm(const Visit& visit) {
   for (uint8_t kind = 0;; ++kind) {

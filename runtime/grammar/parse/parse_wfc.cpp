@@ -26,8 +26,8 @@ IdRange parseLabels(ParseContext& in) {
   return in.build.addIds(labels);
 }
 
-/// Parses a socket of a tile, that is, a side and its labels: `left wall or gate`, or `left plug meets hole`. before:
-/// the tile's sockets that have already been parsed.
+/// Parses a socket of a tile or of the border: a side and its labels, such as `left wall or gate` or `left plug meets
+/// hole`. before: the sockets already parsed for the same tile or border.
 std::optional<SocketNode> parseSocket(ParseContext& in, const std::vector<SocketNode>& before) {
   TokenStream& tokens = in.tokens;
   SocketNode out;

@@ -19,16 +19,16 @@ struct BoundLoss {
   Interval divisor;
 };
 
-/// Stores the losses (expressions without a finite bound) found so far, and the latest one: the reason why the value
-/// that is evaluated now has no bound. Indices of losses start at 1; 0 means no loss.
+/// Stores the losses (expressions without a finite bound) found so far, and the latest one, which is the reason for the
+/// latest unbounded value. Indices of losses start at 1; 0 means no loss.
 class BoundLosses {
  public:
   const BoundLoss& operator[](uint32_t index) const { return losses_[index]; }
   /// divisions whose divisor is certainly 0
   const std::vector<BoundLoss>& zeroDivisions() const { return zeros_; }
 
-  /// Stores a loss. It becomes the latest loss if there is none since takeLatest() was called. When the list is full,
-  /// its last entry is used instead of the new loss.
+  /// Stores a loss and makes it the latest one, unless there is a latest one already. When the list is full, its last
+  /// entry is used instead of the new loss. Stores a division by 0 in zeroDivisions() in any case.
   void add(const BoundLoss& loss);
   /// Returns and clears the latest loss; 0 if all values since the last call are bounded.
   uint32_t takeLatest() { return std::exchange(latest_, 0); }

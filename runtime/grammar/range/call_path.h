@@ -19,8 +19,8 @@ class CallPath {
 
   void enter(ExprId call) { calls_.push_back(call); }
   void leave() { calls_.pop_back(); }
-  /// For an expression in the standard library, returns the innermost of the calls that lead to it whose text is
-  /// outside of the library. Returns kNoId for other expressions.
+  /// For an expression in the standard library, returns the innermost enclosing call that is written outside of the
+  /// library. Returns kNoId for other expressions.
   ExprId writtenCaller(ExprId id) const;
 
  private:

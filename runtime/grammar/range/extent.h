@@ -18,8 +18,8 @@ enum class Unbound : uint8_t {
   radius,  ///< the smallest radius of an ellipsoid or superquadric may be arbitrarily small
 };
 
-/// Two bounds of the same shapes: the box `may`, and all points within the distance `ball` of the box `core`. The
-/// second bound stays tight when the shapes are rotated.
+/// Two bounds of the same shapes: the box `may`, and all points within the distance `ball` of the box `core`. rotate()
+/// computes `may` from the second bound.
 struct Hull {
   IntervalVector may{};
   IntervalVector core{};
@@ -29,7 +29,7 @@ struct Hull {
   static Hull everywhere();
   void merge(const Hull& other);
   void grow(double margin, double turned_margin);
-  void add(const IntervalVector& by);  ///< moves the bounds by all vectors in `by`
+  void add(const IntervalVector& by);  ///< bounds the shapes after a move by any vector in `by`
   void rotate(int axis, Interval angle);
   void scale(Interval factor);
   void mirror(size_t axis);
@@ -82,7 +82,7 @@ struct Extent {
   void smooth(double radius);  ///< grows the bounds, so that they hold after a smooth union with this blend radius
   void add(const IntervalVector& by);
   void node();                     ///< treats all shapes as one shape, such as the result of a blend
-  void uncertain();                ///< marks all shapes as uncertain: any part of the content may be cut away
+  void uncertain();                ///< marks that any part of the content may be cut away
   void shrinkSure(double margin);  ///< like uncertain(), but shapes lose at most `margin` on each side
   void move(const IntervalVector& by);
   void rotate(int axis, Interval angle);  ///< axis: 0, 1 or 2; 3: an arbitrary axis

@@ -81,8 +81,8 @@ class RangeEvaluator {
   /// no bound.
   std::optional<RangeValue> inPieces(ExprId body, RangeFrame& frame, uint32_t slot, Interval range, int depth);
   RangeValue member(const ExprNode& n, const RangeFrame& frame);
-  /// Returns the position of a point relative to the scope with which the rule starts. from_cell: the point in metres
-  /// from the cell's low corner.
+  /// Returns the position of a point relative to the scope with which the rule starts. from_cell: the point relative to
+  /// the low corner of the derived cell, in edges of the cell.
   RangeValue point(const IntervalVector& from_cell, const RangeFrame& frame);
   uint32_t child(const ExprNode& n, uint32_t i) const { return program_.idAt(n.children, i); }
 

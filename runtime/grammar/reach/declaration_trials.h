@@ -28,8 +28,8 @@ class TrialDeclaration {
   const IntBox box_;
 };
 
-/// True if the grammar is finite, and its shapes have a bound only if the domain declares a box: without a box, the
-/// scope of the start rule is unbounded.
+/// True if the domain is finite, and the shapes have a bound only if it declares a box: without a box, the scope of the
+/// start rule is unbounded.
 bool needsBox(uint32_t index, ReachContext& context);
 
 /// Returns a hint with a declaration in which all shapes of the layer fit; empty if no trial finds one. extent: the

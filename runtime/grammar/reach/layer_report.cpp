@@ -37,9 +37,9 @@ std::string_view readText(const Program& program, ExprId id) {
 }
 
 /// Examines the calls in the layer's own rule one by one. Returns the extents of the calls that by themselves are not
-/// proven to stay within what the layer declares. Omits calls after the first kMaxParts, and calls for which the step
-/// budget does not suffice; a later run of the compiler reports these. Returns an empty list if the rule has only one
-/// call.
+/// proven to stay within what the layer declares. Omits calls after the first kMaxParts, and calls that are left when
+/// the steps of kMaxAttempts attempts are spent; a later run of the compiler reports these. Returns an empty list if
+/// the rule has only one call.
 std::vector<Extent> boundCallsOneByOne(uint32_t index, ReachContext& context) {
   const Layer& layer = context.program.layers[index];
   context.start_calls.beginCollecting();
@@ -69,7 +69,7 @@ void LayerReport::report(const Extent& extent) const {
   const std::string name = join({"`", program_.text(layer_.name), "`"});
   const double reach = layer_.reach * kUnit;
   // The message states how far the shapes extend. In a finite domain with a declared box, it measures from the box; in
-  // a finite domain without one, from the domain's origin; in any other domain, from the layer's cell.
+  // a finite domain without one, from the domain's origin; otherwise from the layer's cell.
   const std::string extends =
       unbounded ? "without bound" : metresText(finite && !boxed ? extent.size() : over.may + (finite ? 0 : reach));
   const std::string from = finite ? (boxed       ? " beyond the domain's box"
@@ -79,9 +79,7 @@ void LayerReport::report(const Extent& extent) const {
   const std::string limit = finite ? "" : join({", layer ", name, " declares reach ", metresText(reach)});
   std::string message = join({shape, " may extend ", extends, from, limit});
   if (!unbounded && over.sure <= 0 && (!finite || boxed)) {
-    if (context_.lossy)
-      return;  // no warning: a part of the text that failed to parse may have kept the shapes within
-               // the reach
+    if (context_.lossy) return;  // a part of the text that failed to parse may bound the shapes
     context_.sink.warning(span, codes::kReachMaybe, std::move(message), "shapes that go farther are left out whole");
     return;
   }

@@ -23,7 +23,7 @@ class OverrideExtents {
     /// overrides by path that may still apply further inside: the first `depth` steps of their paths lead to the
     /// current use, and the paths have further steps
     std::vector<uint32_t> begun;
-    /// number of uses of rules from the layer's start to the current use, that is, of path steps that are matched
+    /// number of path steps that lead from the layer's start to the current use; 0 if `begun` is empty
     uint32_t depth = 0;
     /// overrides by tag that do not apply at the current place, because it lies within their own block
     std::vector<uint32_t> within;

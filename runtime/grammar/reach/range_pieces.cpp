@@ -6,8 +6,7 @@ namespace {
 
 constexpr int kDeepest = 8;       ///< maximum number of halvings of a range
 constexpr int kAlways = 3;        ///< number of halvings in Mode::all; only pieces without a bound are halved further
-constexpr double kNarrow = 1.02;  ///< a range is not divided further if the ratio of its ends is smaller than this
-                                  ///< value
+constexpr double kNarrow = 1.02;  ///< a range whose ends have at most this ratio is not divided further
 
 bool isNarrow(Interval range) { return range.lo > 0 && range.hi <= kNarrow * range.lo; }
 

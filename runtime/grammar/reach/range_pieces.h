@@ -15,7 +15,7 @@
 namespace sgm::reach {
 
 /// Selects the ranges that the current attempt divides. Also counts the split statements that enclose the current
-/// statement, because the ranges of sizes in a split are divided only if few splits enclose it.
+/// statement: after divideFewSizes(), ranges of sizes are divided only in a split that few others enclose.
 class RangePieces {
  public:
   /// Selects the ranges that are evaluated in pieces: no range, only ranges that lead to a missing bound, or all
@@ -31,8 +31,8 @@ class RangePieces {
                    const StepBudget& budget) const;
   /// Divides the range of a value into pieces, and returns the union of the extents for all pieces. `whole` is the
   /// extent computed for the undivided range; the result takes sure_lo and sure_hi from `whole`, since these hold for
-  /// the whole range. Returns nullopt if the range cannot be divided, or if some piece has no bound even when it cannot
-  /// be divided further.
+  /// the whole range. Returns nullopt if the range cannot be divided, if some piece has no bound even when it cannot be
+  /// divided further, or if the step budget is used up.
   std::optional<Extent> divide(RangeValue& value, const Extent& whole, const std::function<Extent()>& extent,
                                const StepBudget& budget) const;
 

@@ -38,8 +38,7 @@ Extent boundAlternative(uint32_t rule, const Alternative& head, RangeFrame& fram
     if (activations >= most.hi) return out.value_or(Extent::nothing());
   }
   if (head.minsize != kNoId) {
-    // The clause `minsize` is compared with the final size of the scope. So the result of this evaluation depends on
-    // the scale at which the rule is used.
+    // `minsize` is compared with the final size, so the result depends on the scale of the scope.
     values.dependence().scale = true;
     const Interval scale = frame.place.scale, least = values.number(head.minsize, frame);
     Interval size{};
@@ -56,8 +55,8 @@ Extent boundAlternative(uint32_t rule, const Alternative& head, RangeFrame& fram
   return *out;
 }
 
-/// Returns the extent of a use of a rule, from the cache if possible. replacing: the overrides by path that may replace
-/// this use by another rule.
+/// Returns the extent of a use of a rule, from the cache if possible. replacing: the overrides by path whose blocks may
+/// replace this use.
 Extent boundUse(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top,
                 const std::vector<uint32_t>& replacing, ReachContext& context) {
   RuleExtents& rules = context.rules;
@@ -117,8 +116,8 @@ Extent boundCall(ExprId id, CallSite site, const RangeFrame& frame, ReachContext
   Extent e = context.pieces.isDividing() ? boundRuleInPieces(n.id, args, frame, top, context)
                                          : boundRule(n.id, args, frame, top, context);
   values.calls().leave();
-  // If no bound is known, messages name the outermost call, that is, the call in the start rule. Exception: if an inner
-  // call has already lost the bound, they name that call (Extent::attribute).
+  // Messages name the outermost call, that is, the call in the start rule, unless an inner call has already lost the
+  // bound (Extent::attribute).
   if (site == CallSite::statement && !e.empty) e.attribute(id);
   // The author cannot change the standard library, so messages name the author's call into it.
   if (e.largest_contributor != kNoId && !top && isStandard(program, program.expr(e.largest_contributor).span.file) &&

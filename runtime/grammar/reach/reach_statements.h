@@ -8,8 +8,8 @@
 
 namespace sgm::reach {
 
-// The following functions are defined in reach_statements.cpp. They select the function for a statement, and bound
-// blocks, and statements that combine or deform their bodies.
+// Defined in reach_statements.cpp: the choice of the function, blocks, and statements that combine or deform their
+// bodies.
 
 /// Returns the extent of any statement: an empty extent for kNoId, and an unbounded one if the step budget is used up.
 Extent boundStatement(StmtId id, RangeFrame& frame, ReachContext& context);
@@ -18,21 +18,19 @@ Extent boundUntagged(const StmtNode& s, RangeFrame& frame, ReachContext& context
 /// Returns the extent of a block. first: the extent of content that precedes the block's own statements.
 Extent boundBlock(const StmtNode& s, RangeFrame& frame, ReachContext& context, Extent first = Extent::nothing());
 
-// The following functions are defined in reach_transforms.cpp. They bound statements that move or copy their content.
+// Defined in reach_transforms.cpp: statements that move or copy their content.
 Extent boundTransform(const StmtNode& s, RangeFrame& frame, ReachContext& context);
 Extent boundRepeat(const StmtNode& s, RangeFrame& frame, ReachContext& context);
 Extent boundForEach(const StmtNode& s, RangeFrame& frame, ReachContext& context);
 Extent boundScatter(const StmtNode& s, RangeFrame& frame, ReachContext& context);
 
-// The following functions are defined in reach_split.cpp, reach_treemap.cpp and reach_wfc.cpp. They bound statements
-// that divide a scope into parts.
+// Defined in reach_split.cpp, reach_treemap.cpp and reach_wfc.cpp: statements that divide a scope into parts.
 Extent boundSplit(const StmtNode& s, RangeFrame& frame, ReachContext& context);
 Extent boundComp(const StmtNode& s, RangeFrame& frame, ReachContext& context);
 Extent boundTreemap(const StmtNode& s, RangeFrame& frame, ReachContext& context);
 Extent boundWfc(const StmtNode& s, RangeFrame& frame, ReachContext& context);
 
-// The following functions are defined in reach_profiles.cpp. They handle footprints, their extrusions, roofs, and
-// assets.
+// Defined in reach_profiles.cpp: footprints, their extrusions, roofs, and assets.
 RangeValue evaluateFootprint(const FootprintNode& plan, const RangeFrame& frame, ReachContext& context);
 Extent boundExtrude(const StmtNode& s, RangeFrame& frame, ReachContext& context);
 Extent boundRoof(const StmtNode& s, RangeFrame& frame, ReachContext& context);

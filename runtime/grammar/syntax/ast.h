@@ -39,7 +39,7 @@ enum class ExprKind : uint8_t {
   name,         ///< a name with the meaning `ref` and `id`
   member,       ///< children[0] . member; `module.name` and method calls become `name` and `call` nodes instead
   call,         ///< a call; uses ref, id and bound
-  query,        ///< `clear of LAYER` or `inside RADIUS of LAYER`; children[0]: the radius, if written; uses ref, id
+  query,        ///< `clear R of LAYER` or `inside R of LAYER`; children[0]: R, which may be omitted; uses ref, id
 };
 
 enum class BinaryOp : uint8_t {
@@ -144,7 +144,7 @@ constexpr bool placesBody(StmtKind kind) { return infoOf(kind).role == StmtRole:
 /// The meaning of each member depends on the kind of statement; see stmts.def.
 struct StmtNode {
   StmtKind kind = StmtKind::block;
-  bool power = false;  ///< morph: true: interpolates the exponent of a superquadric; false: interpolates linearly
+  bool power = false;  ///< for a morph: by the exponent of a superquadric instead of linear interpolation
   /// for cut and inner, set by the checker: the statement stands at the top level of its body, so that a cut there
   /// removes from the domain if the rule is a layer's start
   bool layer_level = false;

@@ -98,10 +98,9 @@ enum class Primitive : uint8_t {
 /// at the cell's face. The field's absolute value is at most 7/8 of a voxel's edge, so a larger displacement makes
 /// everything solid or void. Levels whose cell edge exceeds `coarsest_voxels` voxels omit the shape.
 struct AutomatonLimits {
-  static constexpr int32_t least_edge = 16;  ///< minimum edge of a cellular automaton's voxel, in units
-  static constexpr int32_t max_voxels = 64;  ///< maximum number of a cellular automaton's voxels along a cell's edge;
-                                             ///< the minimum is 1
-  static constexpr int32_t max_rounds = 16;  ///< maximum number of rounds of a cellular automaton; the minimum is 0
+  static constexpr int32_t least_edge = 16;  ///< minimum edge of a voxel, in units
+  static constexpr int32_t max_voxels = 64;  ///< maximum number of voxels along a cell's edge; the minimum is 1
+  static constexpr int32_t max_rounds = 16;  ///< maximum number of rounds; the minimum is 0
   static constexpr int32_t max_radius = 4;   ///< maximum radius of the neighbourhood in voxels; the minimum is 1
   /// maximum of rounds times radius: how far a voxel influences others, in voxels
   static constexpr int32_t max_halo = 16;
@@ -159,8 +158,8 @@ std::span<const ValueRange> branchRangeTable();   ///< valid ranges of branch()'
 /// Returns nullptr if there is no such function. For rand and chance, returns the form without a key.
 const BuiltinInfo* findBuiltin(std::string_view name);
 const PrimitiveInfo* findPrimitive(std::string_view name);
-/// True if `word -2m`, written as an argument of this builtin (or of `at`), passes the value -2m to the parameter
-/// `word`. Otherwise it is the subtraction of 2m from `word`.
+/// True if `word -2m`, written as an argument of `callee` (a builtin, a primitive or `at`), passes the value -2m to the
+/// parameter `word`. Otherwise it is the subtraction of 2m from `word`.
 bool namesArgument(std::string_view callee, std::string_view word);
 
 }  // namespace sgm

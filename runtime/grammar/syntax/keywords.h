@@ -16,11 +16,11 @@ std::span<const std::string_view> unavailableTable();
 
 /// Returns the words that start a declaration.
 std::span<const std::string_view> declarationTable();
-/// Returns the keywords of the enum XformKind, the transforms, in its order.
+/// Returns the keywords of the transforms, in the order of XformKind.
 std::span<const std::string_view> transformTable();
-/// Returns the keywords of the enum Measure, in its order.
+/// Returns the keywords of the measures, in the order of Measure.
 std::span<const std::string_view> measureTable();
-/// Returns the keywords of the enum BoxPart, the parts of a box, in its order.
+/// Returns the keywords of the parts of a box, in the order of BoxPart.
 std::span<const std::string_view> boxPartTable();
 
 /// Returns this language's word for a word of another language, such as `at` for `translate`; empty if it is unknown.

@@ -59,8 +59,7 @@ struct LexResult {
   bool readable = true;  ///< false: the file is not UTF-8 text, or too long, and must not be parsed
   /// numbers of lines with a lexical error, ascending; other tokens of these lines may be wrong, too
   std::vector<int> broken_lines;
-  /// offset of a text constant without a closing quote; the constant may include syntax that follows it. SIZE_MAX:
-  /// there is none
+  /// offset of a text constant without a closing quote; the constant may include syntax that follows it. SIZE_MAX: none
   size_t torn_at = SIZE_MAX;
 };
 

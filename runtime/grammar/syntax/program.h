@@ -127,7 +127,7 @@ struct Rule {
   std::pmr::vector<uint32_t> calls;  ///< rules that this rule may call, also in its overrides, each once, ascending
   /// overrides that may apply in this rule, as indices into Program::overrides, each once, ascending
   std::pmr::vector<uint32_t> overrides;
-  Span span;  ///< place in the text of the rule's name, in the rule's first head
+  Span span;  ///< place of the rule's name in its first head
 
   explicit Rule(std::pmr::memory_resource* memory) : alternatives(memory), calls(memory), overrides(memory) {}
 };

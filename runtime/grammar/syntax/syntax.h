@@ -51,8 +51,8 @@ struct NamedPlace {
 struct LayerDecl {
   NameId name = kNoId;
   ExprId cell = kNoId, reach = kNoId, start = kNoId;
-  /// The length after the word `detail`: levels whose cell edge is longer do not show the layer. kNoId: the declaration
-  /// has no `detail`, so it hides the layer at no level.
+  /// The length after the word `detail`: levels whose cell edge is longer do not show the layer. kNoId: `detail` is not
+  /// written.
   ExprId detail = kNoId;
   std::vector<NamedPlace> uses;
   Span span;

@@ -658,9 +658,9 @@ typedef struct sgm_ray_desc {
   { SGM_SIZEOF(sgm_ray_desc), SGM_NULL, {0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, 1.0 }
 
 /* Finds the first point where a ray hits the solid. A ray that starts in the solid hits it immediately (`inside`). The
- * search finds every solid that the ray crosses over a length of at least a sixteenth of a cell and at least one unit;
- * so it finds every wall as thick as a cell. The point lies on the void's side, less than a unit from the solid. The
- * ray ends at the world's border. */
+ * search misses no solid that the ray crosses over a length of at least a sixteenth of a cell and at least one unit; so
+ * it misses no wall as thick as a cell. The point lies on the void's side, less than a unit from the solid. The ray
+ * ends at the world's border. */
 SGM_API sgm_result sgm_field_ray_cast(sgm_field* field, const sgm_ray_desc* desc, sgm_surface_point* out,
                                       sgm_error* error);
 

@@ -22,7 +22,7 @@ struct ExportMaterial {
 
 /// Two materials and their shares at a vertex, in 255ths. All corners of a triangle have the same two materials.
 struct ExportBlend {
-  std::array<uint16_t, 2> materials{};  ///< both equal if the vertex has only one material
+  std::array<uint16_t, 2> materials{};  ///< equal if the vertex has only one material
   uint8_t share = 0;                    ///< share of the second material, in 255ths
   /// shares of the texture's projections along x, y and z, in 255ths; all 0: the texture is mapped by coordinates
   std::array<uint8_t, 3> planes{};

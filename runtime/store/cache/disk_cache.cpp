@@ -96,8 +96,8 @@ class FileCache final : public DiskCache {
   size_t setSize() const { return DiskFolder::kShards / sets_; }
   Set& setOf(const DiskKey& key) { return all_sets_[DiskFolder::shardOf(key) / setSize()]; }
 
-  /// Reserves space in a set while an entry is written; the destructor releases it. Converts to false if the set has no
-  /// space for the entry.
+  /// Reserves space in a set while an entry is written; the destructor releases it, unless fill() was called. Converts
+  /// to false if the set has no space for the entry.
   class Room {
    public:
     Room(FileCache& cache, Set& set, uint64_t bytes) : cache_(cache), set_(set), bytes_(bytes) {

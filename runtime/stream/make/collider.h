@@ -46,8 +46,8 @@ class Colliders {
 
   /// Appends the next changes of colliders to `changes`, with at most `most` new colliders, nearest first. Returns true
   /// if there are no further changes. A new collider that equals the old one is not a change. A chunk keeps its
-  /// collider up to 1.25 times the distance from a viewer; a chunk that is no longer drawn keeps its collider until all
-  /// chunks that replace it have colliders. If this function throws std::bad_alloc, nothing is changed.
+  /// collider up to 1.25 times the collider distance from a viewer; a chunk that is no longer drawn keeps its collider
+  /// until all chunks that replace it have colliders. If this function throws std::bad_alloc, nothing is changed.
   bool update(const DrawnFrame& frame, const ViewerIndex& viewers, size_t most, std::pmr::memory_resource* memory,
               std::vector<ColliderChange>& changes);
 

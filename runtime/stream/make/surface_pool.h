@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// Owns surfaces. Each surface keeps its pool alive. Thread-safe.
+/// Owns surfaces. A reference to a surface keeps the pool alive. Thread-safe.
 class SurfacePool : public std::enable_shared_from_this<SurfacePool> {
  public:
   explicit SurfacePool(std::pmr::memory_resource* memory) : memory_(memory) {}

@@ -51,9 +51,9 @@ class ChunkStore {
   void setEdits(uint64_t number) { edits_ = number; }
   size_t size() const { return records_.size(); }
 
-  /// freeUnused() removes records that no plan since number `since` has needed, least recently needed first. It stops
-  /// when `bytes` bytes are freed and at most `most` records are left, or when there are no more records to remove. It
-  /// returns how much was removed.
+  /// freeUnused() removes records that no plan from number `since` on has needed, least recently needed first, unless a
+  /// request for the chunk is in progress. It stops when `bytes` bytes are freed and at most `most` records are left,
+  /// or when all such records are removed. It returns how much was removed.
   struct Freed {
     size_t bytes = 0;
     uint64_t never_drawn = 0;  ///< number of removed chunks whose body was meshed but never drawn

@@ -39,8 +39,8 @@ class StepSearch {
   bool isVirtual(const ChunkKey& node) const { return node.level > target_.top(); }
   bool canBeLeaf(const ChunkKey& node) const { return isVirtual(node) || ready_.body(node); }
 
-  /// True if the target tree can be drawn within this node now. Coarser chunks may stand in for chunks that are not
-  /// ready.
+  /// True if the target tree can be drawn within this node now. Coarser chunks, or the chunks that are drawn already,
+  /// may stand in for chunks that are not ready.
   bool canPlace(const ChunkKey& node) const {
     if (committed_.isSplit(node) || canBeLeaf(node)) return true;
     return target_.isSplit(node) && canPlaceChildren(node);

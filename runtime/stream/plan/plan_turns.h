@@ -48,9 +48,9 @@ class PlanTurns {
 
   /// Adds a world. Throws std::bad_alloc.
   void join(Member& member);
-  /// Removes a world and its count of jobs, and begins plans of other worlds, which may have waited for the workers of
-  /// these jobs. Must not run concurrently with another call for this member, and no other call for the member may
-  /// follow.
+  /// Removes a world, so that its jobs no longer count, and begins plans of other worlds, which may have waited for the
+  /// workers of these jobs. Must not run concurrently with another call for this member, and no other call for the
+  /// member may follow.
   void leave(Member& member) noexcept;
 
   /// Adds the world to the queue of those that wait for a plan. A later call of startDue(), on any thread, begins the

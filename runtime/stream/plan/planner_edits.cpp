@@ -9,8 +9,8 @@ namespace sgm {
 
 namespace {
 
-/// Initial value of room_beside_, the share of the memory limit that needed chunks may take. Each postponement of edits
-/// halves this share.
+/// Twice the share of the memory limit that needed chunks may take (room_beside_) after edits were postponed for the
+/// first time. Each further postponement of these edits halves the share.
 constexpr double kFirstRoom = 0.5;
 
 }  // namespace

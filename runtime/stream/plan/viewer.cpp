@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kFastest = 10000.0 * kUnitsPerMetre;
 constexpr int kStepsOfChunk = 8;
-/// Factor on the priority number of a chunk straight behind a viewer; chunks straight ahead have the factor 1. A larger
-/// number means less urgent.
+/// Factor on the urgency value of a chunk straight behind a viewer; chunks straight ahead have the factor 1. A larger
+/// value means less urgent.
 constexpr double kBehind = 3;
 
 bool finite(const Vector3& v) {
@@ -91,8 +91,7 @@ double urgencyFor(const ChunkKey& key, const SeenBy& seen, const LodSettings& se
   const Vector3 towards{(key.at.x + 0.5) * edge - viewer.position[0], (key.at.y + 0.5) * edge - viewer.position[1],
                         (key.at.z + 0.5) * edge - viewer.position[2]};
   const double lengths = std::sqrt(dot(towards, towards) * dot(viewer.direction, viewer.direction));
-  // Near the viewer, chunks behind the viewer have the same priority as those in front, because the viewer may turn
-  // round.
+  // Near the viewer, chunks behind it are as urgent as those in front, because the viewer may turn round.
   if (lengths == 0 || away <= all_around) return waits;
   return waits * (1 + (kBehind - 1) * (1 - dot(towards, viewer.direction) / lengths) / 2);
 }

@@ -28,7 +28,7 @@ constexpr int64_t kMaxMasters = 100'000;
 /// file cannot make SQLite allocate gigabytes.
 constexpr int kMaxBytes = 1 << 20;
 
-// The exact text of the CREATE statement of this table. SQLite stores this text, and a table is recognized by it.
+// A table is recognized by the exact text of its CREATE statement, which SQLite stores.
 constexpr const char* kKeysTable =
     "CREATE TABLE keys(id INTEGER PRIMARY KEY, bins INTEGER NOT NULL, mode TEXT NOT NULL, length REAL NOT NULL, "
     "density REAL NOT NULL, version INTEGER NOT NULL, limit_mse REAL NOT NULL, limit_emd REAL NOT NULL, "
@@ -36,8 +36,7 @@ constexpr const char* kKeysTable =
 constexpr const char* kMastersTable =
     "CREATE TABLE masters(id INTEGER PRIMARY KEY, key INTEGER NOT NULL REFERENCES keys(id), class TEXT NOT NULL, "
     "name TEXT NOT NULL, models INTEGER NOT NULL, shares BLOB NOT NULL, checksum INTEGER NOT NULL) STRICT";
-/// This table holds the number of rows in all tables and the sum of the rows' checksums, by which a missing row is
-/// detected.
+/// This table holds the number of rows of the other two tables and the sum of their checksums, to detect a missing row.
 constexpr const char* kSealTable =
     "CREATE TABLE seal(id INTEGER PRIMARY KEY, rows INTEGER NOT NULL, checksum INTEGER NOT NULL) STRICT";
 

@@ -18,8 +18,8 @@ namespace {
 
 constexpr uint64_t kMaxChunks = 8192;
 constexpr size_t kCellBytes = size_t{256} << 20;
-/// A box is searched for a surface with at least this number of grid cells along its longest edge; this determines the
-/// level of detail of the search.
+/// A box is searched for a surface at the coarsest level that has at least this number of grid cells along the box's
+/// longest edge; at level 0 if none has.
 constexpr int64_t kSearchCells = 64;
 /// Maximum vertical component of the unit normal of a steep surface: it is inclined by at least 60 degrees.
 constexpr double kSteep = 0.5;
@@ -73,7 +73,7 @@ struct Kind {
   std::span<const Scale> scales;
   std::string_view file;
   /// Width in metres of the central part of a finite world. Only this part is used, to omit the ground around a
-  /// building. 0: the whole world is used.
+  /// building. 0: no limit.
   double middle = 0;
   std::string_view text = embedded(file);
 };

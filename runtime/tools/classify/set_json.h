@@ -17,8 +17,8 @@ struct ReadSet {
   std::optional<MasterSet> set;  ///< set if the whole text is valid
   bool malformed = false;        ///< true if the text is not JSON
   std::string what;     ///< the first problem, in one line; without its position in the text if the JSON is well-formed
-  std::string pointer;  ///< JSON pointer (RFC 6901) to the value that is wrong; "" if the whole text is wrong, for
-                        ///< example no JSON
+  std::string pointer;  ///< JSON pointer (RFC 6901) to the wrong value; "" if the text as a whole is wrong, for example
+                        ///< if it is not JSON
 };
 
 /// Parses {"masters": [{"class", "name", "models", "key", "shares"}, ...], "limits": [{"key", "mse", "emd"}, ...]},

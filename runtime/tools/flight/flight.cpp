@@ -16,8 +16,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kFramesASecond = 60;
 constexpr auto kFrame = std::chrono::microseconds(16667);
-/// If the flight is not paced, the next frame begins as soon as the world has made its next plan, or at the latest
-/// after this time.
+/// If the flight is not paced, the next frame begins as soon as the world has made its next plan or is idle, or at the
+/// latest after this time.
 constexpr auto kLongestWait = std::chrono::milliseconds(4);
 constexpr auto kBetweenLooksForNews = std::chrono::microseconds(100);
 constexpr auto kBetweenLooksWhileStanding = std::chrono::milliseconds(4);
@@ -71,8 +71,8 @@ class Course {
     if (leg_ != 0 && frame_ > 0 && frame_ % leg_ == 0 && teleported_ < teleports_) {
       if (Result<void> moved = path_.teleport(++teleported_); !moved) return moved.error();
       flown_ = 0;
-      // Stand still for some frames after the teleport: so the share of obsolete pending requests measures the effect
-      // of the teleport alone, without that of later motion.
+      // Stand still for some frames after the teleport, so that pending requests become obsolete only by the teleport,
+      // not by later motion (FlightReport::stale).
       stands_ = kFramesToForget;
       stop.leapt = true;
     }

@@ -20,7 +20,7 @@ std::vector<Metres3> splinePoints(std::span<const Metres3> controls, double spac
                                   const std::optional<Metres3>& start) {
   const size_t count = controls.size(), segments = closed ? count : count - 1;
   const auto control = [&](size_t i) { return controls[i % count]; };
-  // Tangent of the spline at a control point: the weighted mean of the slopes of the chords on both sides. The slope
+  // Velocity at a control point for unit speed: the weighted mean of the slopes of the chords on both sides. The slope
   // towards the nearer neighbour has more weight.
   const auto velocity = [&](size_t i) {
     const bool first = i == 0 && !closed, last = i == count - 1 && !closed;

@@ -53,9 +53,9 @@ Result<void> FrameChecker::redraw(const sgm_chunk_key& key, const DrawnParts& pa
   const auto at = chunks_.find(keyOf(key));
   if (at == chunks_.end()) return malformed(keyOf(key), "is not drawn");
   CheckedChunk& chunk = at->second;
-  // The lateral vertices of a seam lie at corners where two levels meet. Their keys contain fan numbers, which depend
-  // on the blocks around; no other keys do. If the fan numbers change, the whole seam is removed and added again, which
-  // is cheap because seams are small.
+  // Of all vertex keys, only those of a seam's lateral vertices (at corners where two levels meet) depend on the
+  // neighbouring blocks, through the seam's fan numbers. If these change, the whole seam is removed and added again,
+  // which is cheap because seams are small.
   std::array<bool, 1 + SGM_FACE_COUNT> stays{true};
   forEachDrawn(chunk, [&](CheckedPart&, size_t number) {
     if (number == 0) return;

@@ -10,15 +10,13 @@ namespace sgm::cli {
 struct FrameReport {
   uint64_t chunks = 0, triangles = 0;
   uint64_t edges = 0;              ///< number of undirected edges
-  uint64_t open_edges = 0;         ///< edges that triangles use more often in one direction than in the opposite
-                                   ///< direction
+  uint64_t open_edges = 0;         ///< edges that triangles use more often in one direction than in the other
   uint64_t nonmanifold_edges = 0;  ///< edges used at least twice in the same direction, for example by three triangles
   uint64_t degenerate_triangles = 0;  ///< triangles with a repeated vertex; their edges are not counted
   uint64_t flat_triangles = 0;        ///< triangles with zero area, in bodies of chunks
   uint64_t folded_triangles = 0;      ///< pairs of triangles of one body that fold onto each other
   uint64_t self_intersections = 0;    ///< pairs of triangles of one body that intersect
-  uint64_t overlaps = 0;              ///< pairs of drawn chunks (of different levels) where one chunk contains the
-                                      ///< other
+  uint64_t overlaps = 0;              ///< pairs of drawn chunks where one chunk contains the other
 
   bool closed() const { return open_edges + nonmanifold_edges + degenerate_triangles + overlaps == 0; }
   bool valid() const { return closed() && flat_triangles + folded_triangles + self_intersections == 0; }

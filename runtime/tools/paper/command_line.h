@@ -1,5 +1,5 @@
 #pragma once
-// Makes the command line for repeating a measurement. It must be run in the folder that contains the report.
+// Makes the command line for repeating a measurement. It must be run in the report's folder.
 
 #include <string>
 

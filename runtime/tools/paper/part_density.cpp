@@ -32,8 +32,8 @@ struct Sample {
 
 struct Sampled {
   const Model* model = nullptr;
-  std::vector<Sample> samples;  ///< one sample for each density, the coarsest first; each next sample has half the cell
-                                ///< size
+  std::vector<Sample> samples;  ///< one sample for each density, the coarsest first; each has half the cell size of
+                                ///< the previous one
 };
 
 Result<Sampled> sample(ReportContext& report_context, const Model& model, int steps,

@@ -77,8 +77,7 @@ Result<StageRun> generate(const StageScene& scene, const WorldField& world, cons
   return run;
 }
 
-/// Counts the operations of a stage. For this, the stage is meshed as by the CPU backend, but with an evaluator that
-/// counts its operations.
+/// Counts the operations of a stage: meshes it as the CPU backend does, but with an evaluator that counts.
 Result<uint64_t> countOperations(const StageScene& scene, const WorldField& world, JobSystem& jobs) {
   const Result<std::pmr::vector<ChunkKey>> keys = scene.keys(world);
   if (!keys) return keys.error();

@@ -56,7 +56,7 @@ struct ComparedSystem {
   const char* view_set;  ///< assignment for the option --set; null: none
   bool sharp;
   const char* alt;
-  /// text that explains each criterion with NO, in the paper's table or in our measurements
+  /// explains each NO, both in the paper's table and in our measurements
   const char* without;
   std::array<Excerpt, 3> excerpts{};  ///< parts of the region that are classified to test the criteria kClouds,
                                       ///< kArchitecture and kCaves, in this order

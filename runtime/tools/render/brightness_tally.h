@@ -15,7 +15,8 @@ class BrightnessTally {
 
   /// Geometric mean of all counted values; 0 if no value was counted.
   float mean() const;
-  /// 95th percentile of the counted values, with a relative error of about 5 % (half a bin); 0 if no value was counted.
+  /// 95th percentile of the counted values, at most 5 % off (half a bin) within the range of the bins; 0 if no value
+  /// was counted.
   float highlight() const;
 
  private:

@@ -191,8 +191,8 @@ Observation bestObservation(const RayCaster& mesh, glm::vec3 place, const Camera
   return best;
 }
 
-// Places one lamp to the left or right of the camera, whose slanting light shows relief. Places up to three more lamps
-// where the view is deepest, beyond the headlamp's reach. All lamps are in the void, at a distance from each other.
+// Places one lamp at the side, whose slanting light shows relief, and up to three lamps where the view is deepest,
+// beyond the headlamp's reach. All lamps are in the void, at a distance from each other.
 std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::vec3 forward, const Fan& fan,
                                    float far) {
   std::vector<RenderLamp> lamps;
@@ -338,8 +338,7 @@ void lightScene(const View& view, Light light, RenderScene& scene) {
   scene.background = light == Light::sun ? Background::sky : Background::cave;
   switch (light) {
     case Light::sun:
-      // Haze is air that scatters light from the sky. Between walls there is less of it, so the fog distance is larger
-      // there.
+      // Between walls, little air scatters light from the sky, so the haze is thinner and the fog distance larger.
       scene.fog_distance = (view.enclosed ? 120.0f : 25.0f) * view.depth;
       return;
     case Light::lamp:

@@ -26,13 +26,13 @@ class LightPaths {
   vec3 lightOf(uint32_t light, const MetSurface& place) const {
     return sky_ ? sunOn(place.normal) : lampOn(place.position, place.normal, light);
   }
-  /// Returns the share, 0 to 1, of the light from light source number `light` that reaches a place and is not blocked.
+  /// Returns the share, 0 to 1, of the light from light source number `light` that reaches a place.
   float openShare(uint32_t light, const MetSurface& place, UnitPoints& points) const {
     return sky_ ? sunShare(place, points) : lampShare(place, light, points);
   }
 
   /// Returns the light that arrives at `from` from the direction `direction`, traced over at most `bounces` surfaces.
-  /// distance: receives the distance of the first hit, if there is a hit. mirrored: true: the ray is a visible
+  /// distance: receives the distance of the first hit, if there is a hit. mirrored: whether the ray is a visible
   /// reflection in a pane.
   vec3 radiance(vec3 from, vec3 direction, UnitPoints& turns, int bounces, float* distance = nullptr,
                 bool mirrored = false) const;

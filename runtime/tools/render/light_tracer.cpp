@@ -55,7 +55,8 @@ class LightTracer {
     vec3 seen(0);
     if (scene_.isMirror(place.material)) seen = mirrored(place, x, y);
     // At the rim of a pane, the pane's material blends with the paint of the frame. Such pixels get the pane's weak
-    // reflection and the view through the pane, even if paint is the first material.
+    // reflection and the view through the pane, even if paint is the first material. Otherwise, only the sky would
+    // shine in the pane.
     if (scene_.isClear(place.material) || scene_.isClear(place.second)) {
       const uint32_t pane = scene_.isClear(place.material) ? place.material : place.second;
       // For clear panes, `seen` is the sum of reflected and transmitted light, and the shader adds it unchanged.

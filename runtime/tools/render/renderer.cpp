@@ -85,14 +85,14 @@ float exposureFor(const LightPlanes& light, Background background) {
 
 static_assert(static_cast<uint32_t>(SurfacePattern::leaded) < 31, "a pattern is a bit of ShadePipeline::patterns");
 
-/// The most recent shading pipeline, and the scope that owns it. It is reused if it supports the material patterns of
-/// the next scene.
+/// The most recent shading pipeline, and the scope that owns it. It is reused if it supports the next scene's material
+/// patterns and sky.
 struct Renderer::Kept {
   std::unique_ptr<VulkanScope> scope;
   ShadePipeline shade;
 
-  /// Makes a new shading pipeline if the current one lacks a material pattern of the scene. Errors: those of the
-  /// device.
+  /// Makes a new shading pipeline if the current one lacks a material pattern or the sky of the scene. Errors: those of
+  /// the device.
   Result<void> lightPatterns(const VulkanDevice& device, const RenderScene& scene) {
     constexpr uint32_t kSkyBit = 1u << 31;
     uint32_t patterns = scene.background == Background::sky ? kSkyBit : 0;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kMaxPoints = double{1 << 25};
 constexpr int kMargin = 6;                  // number of empty lattice points around the mesh, which smoothing needs
-constexpr int kSubColumns = 2;              // number of rays along each horizontal edge of a lattice cell; their square
-                                            // is cast for each column of cells
+constexpr int kSubColumns = 2;              // number of rays along each horizontal edge of a lattice cell; each column
+                                            // of cells gets the square of this number
 constexpr std::array kSoftenings{1, 2, 3};  // radii of the successive smoothing passes, in cells
 /// Mean optical depth of a cloud: its middle is nearly opaque and its base is grey. It is the same for clouds of all
 /// sizes, so that a small cloud beside a tower looks as dense as a large one far away.
@@ -89,8 +89,8 @@ void VapourDensity::fillColumns(const RayCaster& outline, JobSystem& jobs) {
           }
         };
         for (int sub = 0; sub < kSubColumns * kSubColumns; ++sub) {
-          // The rays are shifted by an odd fraction of a cell (0.517). Otherwise, they would lie in the planes of the
-          // grid on which the mesh was sampled, and hit edges of its triangles.
+          // The odd offset (0.517 of the distance between two rays) keeps the rays off the planes of the grid on which
+          // the mesh was sampled, where they would hit edges of its triangles.
           const glm::vec2 cell(float(sub % kSubColumns), float(sub / kSubColumns));
           const glm::vec2 off = (cell + 0.517f) / float(kSubColumns) - 0.5f;
           const float from_x = lattice_.corner.x + lattice_.spacing * (float(x) + off.x);

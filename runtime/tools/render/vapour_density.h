@@ -44,8 +44,8 @@ class VapourDensity {
   uint32_t materialAt(glm::vec3 place) const;
   bool isEmptyBrick(glm::ivec3 brick) const { return bricks_[brickIndex(brick)] == kEmpty; }
   glm::ivec3 bricks() const { return brick_count_; }
-  /// How far the ray continues, in cells, from distance t to the end of the empty brick around it; on this stretch it
-  /// meets no density. 0 if the brick at distance t has density. Contract: no component of direction is 0.
+  /// The distance in cells from t to just behind the end of the empty brick at t, in which the ray meets no density; 0
+  /// if the brick at t has density. Contract: no component of direction is 0.
   float emptyAhead(glm::vec3 from, glm::vec3 direction, float t) const;
   /// The distances in cells at which the ray enters (x) and leaves (y) the lattice; y <= x if the ray misses it.
   /// Contract: no component of direction is 0.

@@ -147,9 +147,8 @@ Result<void> VulkanDevice::run(const std::function<void(VkCommandBuffer)>& recor
     submit.pCommandBuffers = &commands;
     result = calls_.vkQueueSubmit(queue_, 1, &submit, fence);
     if (result == VK_SUCCESS) result = calls_.vkWaitForFences(device_, 1, &fence, VK_TRUE, kTimeoutNanoseconds);
-    if (result != VK_SUCCESS)
-      calls_.vkDeviceWaitIdle(device_);  // the device may still use the objects that are
-                                         // destroyed below
+    // After an error, the device may still use the objects that are destroyed below.
+    if (result != VK_SUCCESS) calls_.vkDeviceWaitIdle(device_);
   }
   calls_.vkDestroyFence(device_, fence, nullptr);
   calls_.vkDestroyCommandPool(device_, pool, nullptr);

@@ -20,8 +20,7 @@ constexpr std::chrono::seconds kStale{10};
 /// connection needs up to two files, its socket and its upload. All connections of both ports, including rejected ones,
 /// use at most half of the process's files; the rest remains for the engine.
 constexpr uint32_t kWorkConnections = 2048, kWorkShare = 5;
-/// Limits of the operations port's number of connections: a maximum, and the divisor of the process's limit of open
-/// files. They are low, because this port has few clients.
+/// The same limits for the operations port, which has few clients.
 constexpr uint32_t kOperationsConnections = 64, kOperationsShare = 16;
 
 http::ServerSettings serverSettings(const ServiceSettings& settings, uint16_t port, const char* thread_name) {

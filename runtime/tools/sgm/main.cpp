@@ -13,9 +13,9 @@ namespace {
 
 using sgm::cli::Exit;
 
-/// Signal handler. Usually removes unfinished files, and then ends the process by the same signal, so that a shell
-/// reports 128 + the signal. While some work must not be interrupted, the handler only records the signal, which then
-/// ends the process after that work.
+/// Signal handler. Removes unfinished files, and then ends the process by the same signal, so that a shell reports 128
+/// + the signal. While work must not be interrupted, the handler only records the signal, which is raised again after
+/// that work.
 void endBy(int signal) {
   if (sgm::cli::ending_signals.waits(signal)) return;
   sgm::cli::unfinished_files.remove();

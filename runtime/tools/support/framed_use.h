@@ -26,13 +26,13 @@ struct FramedUse {
 Json toJson(const FramedUse& use);
 std::string textOf(const FramedUse& use);
 
-/// Changes the plan so that an unknown rule is rejected, and the region surrounds one use of the rule (a place at which
-/// derivation applies it): the use nearest to the origin. Contract: the options outlive the plan.
+/// Changes the plan so that an unknown rule is rejected, and the region surrounds the use of the rule that is nearest
+/// to the origin. Contract: the options outlive the plan.
 void planFrame(const RenderOptions& options, RegionPlan& plan);
 
-/// Compares the uses of the rule (places at which derivation applies it), and returns the view in which a use is most
-/// visible; sets `framed` to that use. Contract: the region was meshed with the plan of planFrame(). Errors:
-/// invalid_argument if the region contains no use, or no visible one; those of derivation.
+/// Returns the view in which a use of the rule is most visible; sets `framed` to that use. Contract: the region was
+/// meshed with the plan of planFrame(). Errors: invalid_argument if the region contains no use, or no visible one;
+/// those of derivation.
 Result<View> frameUse(const RenderOptions& options, const Region& region, std::span<const RenderVertex> vertices,
                       std::span<const uint32_t> indices, std::optional<FramedUse>& framed);
 

@@ -75,8 +75,8 @@ Result<std::string> meshFileAnswer(const std::string& file) {
 Result<asset::TriangleMesh> askSandboxForMesh(const std::string& file, const SandboxOptions& options) {
   const Result<std::string> said = askSandbox(options);
   if (!said) return said.error();
-  // The file may have compromised the process that reads it, so check the lengths in the answer of this process against
-  // the number of bytes.
+  // The file may have compromised the process that reads it, so check the lengths in the answer against the number of
+  // bytes.
   std::string_view left = *said;
   std::vector<uint64_t> counts(2);
   std::vector<asset::Point> origin(1);

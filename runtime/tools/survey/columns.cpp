@@ -97,8 +97,8 @@ class TileFill {
   std::array<int32_t, size_t{kBrick} * kBrick * kBrick> x_{}, y_{}, z_{}, q_{};
 };
 
-/// The intervals of one column in the subject (the void or the solid that is drawn), and what a plan (a view from
-/// above) shows of the column.
+/// The intervals of one column in the subject (the void or the solid that is drawn), and the column's values for a plan
+/// (a view from above).
 struct Column {
   std::vector<Stretch> stretches;
   uint32_t shown = kNone;

@@ -31,8 +31,8 @@ struct Columns {
   /// drawn): about the sample's distance from the surface, in steps; at most 2. Negative if no sample of the column is
   /// inside the subject.
   Grid widest;
-  /// Like `widest`, but only for passages below the shown interval. A passage counts if at least one metre of rock lies
-  /// between it and the shown interval. Negative if the column has no such passage.
+  /// Like `widest`, but only for passages below the shown interval that are at least one metre high, with at least one
+  /// metre of rock between them and the shown interval. Negative if the column has no such passage.
   Grid under;
   /// For each column, the index of its first interval in `stretches`. One more element at the end: the number of
   /// intervals.

@@ -16,8 +16,8 @@ constexpr Ink kContour{110, 110, 110}, kCeiling{60, 60, 60};
 constexpr double kMaxLevels = 14;
 constexpr double kSteep = 0.75;       // minimum slope (rise over run) of a floor with hachures
 constexpr double kCeilingStep = 1.6;  // minimum slope (rise over run) of a step in the ceiling
-constexpr double kFloorAbove = 1.8;   // metres; a hachure is drawn only if the floor continues uphill for at least so
-                                      // much height
+constexpr double kFloorAbove = 1.8;   // metres; a hachure is drawn only if there is still floor at this horizontal
+                                      // distance uphill
 constexpr double kHachureGap = 6;     // pixels between hachures along a contour
 constexpr int kMainEvery = 5;         // every kMainEvery-th contour is a main contour
 // Minimum distance between contours in pixels. On steeper slopes, only main contours are drawn.

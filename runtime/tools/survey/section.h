@@ -12,9 +12,8 @@ struct Crop {
   int left = 0, right = 0, top = 0, bottom = 0;
 };
 
-/// The smallest crop that contains the subject (the void or the solid that is drawn), plus a margin. The subject
-/// includes both what lies on the cut and what is projected onto it from in front or behind. The whole slice if there
-/// is no subject.
+/// The smallest crop that contains the subject (the void or the solid that is drawn), both on the cut and projected
+/// onto it from in front and behind, plus a margin. The whole slice if it does not contain the subject.
 Crop cropOf(const Slice& slice);
 
 struct SectionFigures {

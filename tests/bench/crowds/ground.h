@@ -132,8 +132,8 @@ struct Mover {
   }
 };
 
-/// Calls frame(time) `rate` times a second, for `seconds` or until it returns false. time: seconds since the first
-/// call. Frames that are already late are skipped.
+/// Calls frame(time) `rate` times a second, until `seconds` have passed or it returns false. time: seconds since the
+/// start. Frames that are already late are skipped.
 inline void paced(double seconds, double rate, const std::function<bool(double)>& frame) {
   const Clock::time_point start = Clock::now();
   const auto now = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };

@@ -140,7 +140,7 @@ TEST_CASE("sizes that an asset cannot have are told with those that it could", "
       refusal(gabledHouse(), {6, 6, 1}, {{2, false, 2, 4}}) ==
       "impossible fit: with its angles kept, and stiff where it has no zone to stretch, this asset cannot be 6m x 6m x "
       "1m; it could be at least 6.021m along z");
-  // Impossible: the roof has no zone in which its height could change.
+  // This fit is impossible, because the roof has no zone in which its height could change.
   CHECK(
       refusal(gabledHouse(), {8, 9, 8}, {{0, false, 1, 5}, {1, false, 1, 2}}) ==
       "impossible fit: with its angles kept, and stiff where it has no zone to stretch, this asset cannot be 8m x 9m x "

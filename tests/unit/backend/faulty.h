@@ -37,8 +37,8 @@ struct Faulty : vulkan::KeptEngine {
   }
 };
 
-// These tests are defined in other files. They use the same device as the tests here, so that its pipelines are made
-// only once.
+// Tests that vulkan_faults_test.cpp calls, but that are defined in other files. They use the same device as its own
+// tests, so that the pipelines are made only once.
 void checkFarDevice(Faulty& faulty);       ///< defined in vulkan_far_test.cpp
 void checkMeshesThatStay(Faulty& faulty);  ///< defined in vulkan_resident_faults_test.cpp
 

@@ -128,8 +128,8 @@ Meshed meshed(const MeshKernels& kernels, GridJob job, size_t slabs, bool normal
   return result;
 }
 
-/// Returns smooth values, noise of many magnitudes, or the sum of both. Some values are far beyond the range of
-/// quantised values; some are nearly 0.
+/// Returns smooth values, noise of many magnitudes, or smooth values with weak noise. Some values of the noise are far
+/// beyond the range of quantised values; some are nearly 0.
 std::vector<float> someValues(std::mt19937& random, size_t count) {
   std::vector<float> values(count);
   std::uniform_real_distribution<float> unit(-1.0f, 1.0f);

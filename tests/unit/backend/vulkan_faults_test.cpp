@@ -67,7 +67,7 @@ void loseDevices(Faulty& faulty) {
   }
 }
 
-/// Injects failures into the calls that allocate memory or create pipelines: the CPU must mesh the affected chunks.
+/// Makes Vulkan calls fail for lack of memory: the CPU must mesh the affected chunks.
 void failCalls(Faulty& faulty) {
   static const std::pair<const char*, VkResult> kFailures[] = {
       {"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY},

@@ -88,7 +88,7 @@ TEST_CASE("exponential and logarithm stay within the stated relative error") {
     logarithm.add(relative(detLog(y), std::log(extended(y))), y);
   }
   // The smallest positive double is 4.94e-324. Rounding changes a subnormal number by up to half of that; the bound is
-  // slightly larger.
+  // twice as large.
   Worst subnormal;
   for (int i = 0; i < kSamples; ++i) {
     const double x = std::uniform_real_distribution<double>(-750.0, -708.4)(random);

@@ -28,7 +28,7 @@ std::vector<ChunkRequest> block(int level, uint8_t seams) {
   return requests;
 }
 
-/// Returns the field value of the next coarser level at `p`, rounded to whole units. p: position in units.
+/// Returns the field value of the next coarser level at the integer position nearest to `p`, which is in units.
 double coarseValue(const WorldField& world, int level, const std::array<double, 3>& p) {
   Int3 at;
   for (int axis = 0; axis < 3; ++axis) at[axis] = static_cast<int32_t>(std::lround(p[static_cast<size_t>(axis)]));

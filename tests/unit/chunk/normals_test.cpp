@@ -8,8 +8,7 @@ using namespace sgm;
 
 namespace {
 
-/// Returns the share of the mesh's area that is in triangles with a vertex normal that points to the back of the
-/// triangle.
+/// Returns the share of the mesh's area that is in triangles whose vertex normals have a sum that points backwards.
 double shareAstray(const std::string& rules) {
   const WorldField world(settingsOf("sgm 1; units m; start Main;\n" + rules, 128), std::pmr::get_default_resource());
   std::vector<ChunkRequest> requests;

@@ -69,9 +69,9 @@ TEST_CASE("in many cells of a layer parts are counted by their shapes", "[thin]"
   const std::string cells = "domain infinite; layer l cell 12m reach 6m { start Main; }";
   CHECK(thinIn("rule Main { at(5m, 5m, 5m) Pane; }\nrule Pane { box(1m, 1m, 4cm); }", kCell, 0, cells) ==
         "Pane 41 about 125");
-  // If a use of a rule has several thin shapes, or if two statements have shapes of the same size, the exact count
-  // needs the derivation of every cell. This count includes 25 uses that belong to neighbouring cells and lie only
-  // partly in the box.
+  // If a use of a rule has several thin shapes, or if two statements have shapes of the same size, every cell is
+  // derived, and the count is exact. It includes 25 uses that belong to neighbouring cells and lie only partly in the
+  // box.
   CHECK(thinIn("rule Main { at(5m, 5m, 5m) Pane; }\nrule Pane { box(1m, 1m, 4cm); at(2m, 0m, 0m) box(1m, 1m, 4cm); }",
                kCell, 0, cells) == "Pane 41 150");
   CHECK(thinIn("rule Main { at(5m, 5m, 5m) Pane; }\nrule Pane { repeat 3 at(0m, 0m, 1m) box(1m, 1m, 4cm); }", kCell, 0,

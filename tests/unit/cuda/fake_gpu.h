@@ -27,7 +27,7 @@ struct FakeState {
   int fail_result = 0;
   bool lasts = false;
   bool may_leave = false;  ///< set after a fatal error: objects may remain in a context that cannot be used any more
-  /// set after a fatal error or a failed wait: it is then unknown whether the GPU still uses memory
+  /// Set after a fatal error or a failed wait: it is then unknown whether the GPU still uses memory
   bool unsure = false;
 };
 

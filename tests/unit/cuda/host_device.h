@@ -1,6 +1,6 @@
 #pragma once
-// Runs the CUDA kernels on the CPU of a machine without a GPU, block by block and thread by thread, in the way that a
-// GPU runs them. For tests, not for speed.
+// Runs the CUDA kernels on the CPU, block by block and thread by thread, in the way that a GPU runs them. For tests on
+// machines without a GPU, not for speed.
 
 #include <functional>
 #include <optional>

@@ -87,8 +87,8 @@ class RandomRules {
     return out + "R" + std::to_string(level_ + 1) + "(" + length() + "); }";
   }
 
-  /// Calls of rules that use their parameter r twice in one expression. Interval arithmetic alone gives no finite bound
-  /// for this expression.
+  /// Calls of rules that use their parameter r more than once. Interval arithmetic alone, which takes each use for an
+  /// independent value, gives no finite bound for their shapes.
   std::string correlated() {
     return pick({"", "Swollen(rand(1m, 4m)); ", "Swollen(size_); ", "Share(rand(0.5m, 5m)); ", "Share(2*size_); "});
   }

@@ -94,8 +94,8 @@ TEST_CASE("an automaton in a box is part of the one over the whole world") {
   CAPTURE(seed);
   std::mt19937 random(seed);
   size_t solid = 0, all = 0;
-  // Every build tests at least 150 boxes, because shares of the voxels are checked below. Of a dozen boxes only, a few
-  // large ones would have most of the voxels, and may be all rock or all air.
+  // Every build tests at least 150 boxes, because shares of the voxels are checked below. With only a dozen boxes, a
+  // few large ones would have most of the voxels, and might be all rock or all air.
   const unsigned boxes = std::max(rounds(150), 150u);
   for (unsigned round = 0; round < boxes; ++round) {
     const Automaton automaton = anyAutomaton(random);

@@ -48,7 +48,7 @@ TEST_CASE("bounds hold every point of the level set, for every kind of shape") {
     }
   }
   CHECK(inside > static_cast<int>(3 * rounds(3000)));
-  CHECK(seen.size() == 21);  // 21 is the number of all shape kinds except the half-space
+  CHECK(seen.size() == 21);  // all shape kinds except the half-space
 }
 
 TEST_CASE("bounds of leaves are tight") {

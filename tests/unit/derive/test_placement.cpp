@@ -1,5 +1,5 @@
-// Tests how the scope (the local coordinate frame) affects what is derived in it: displacements in a scaled scope,
-// cuts, and domains that are filled completely.
+// Tests how the scope (the local frame and box) affects what is derived in it: displacements and warps in a scaled
+// scope, cuts, and finite domains without layers, which are derived as one cell.
 
 #include "catch.h"
 #include "derive_fixture.h"

@@ -252,7 +252,7 @@ TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no f
   };
   int snapped = 0, all = 0;
   // Every build tests at least 300 wings, because the share of snapped floors is checked below. The floors of one wing
-  // all snap, or none does. With only twenty wings, this share would by chance be below a fifth in one run of thirty.
+  // often snap together. So with only twenty wings, this share would be below a fifth in one run of thirty.
   const unsigned wings = std::max(rounds(300), 300u);
   for (unsigned round = 0; round < wings; ++round) {
     const std::string low = std::to_string(-4 + 3 * unit(random)), tall = std::to_string(8 + 4 * unit(random));
@@ -266,7 +266,7 @@ TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no f
       if (free[i] > top) continue;
       const double from = (free[i] - 0.7) / 3.2, nearest = (std::floor(from + 0.5) - from) * 3.2;
       ++all;
-      // skipped: this distance is so near to the snapping distance that rounding decides
+      // Skips a distance so near to the snapping distance that rounding decides.
       if (std::fabs(std::fabs(nearest) - 0.6) < 0.005) continue;
       const bool near = std::fabs(nearest) < 0.6;
       snapped += near;

@@ -188,7 +188,8 @@ TEST_CASE("most floors have a corridor, and most rooms that are linked meet", "[
   }
   CAPTURE(corridors, through, links, lost);
   CHECK(corridors > floors / 4);
-  // A door between two rooms that no link requests is made only if no corridor from the entrance fits.
+  // Except for the room at the entrance, two rooms without a link get a door between them only if no corridor from the
+  // entrance fits.
   CHECK(through <= floors / 8);
   CHECK(lost <= links / 6);
 }

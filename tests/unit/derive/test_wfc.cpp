@@ -188,7 +188,8 @@ TEST_CASE("a lattice is the same wherever and whenever it is derived, and anothe
 }
 
 TEST_CASE("walls run on from tile to tile, and their ends meet", "[wfc]") {
-  // The walls in this meadow form closed loops, so the number of their corner tiles is even, and at least four.
+  // The walls in this meadow form closed loops, so the number of their corner tiles is even, and at least four
+  // if there are walls.
   const auto program = ofTiles(kMeadow);
   unsigned walls = 0;
   for (uint64_t seed = 0; seed < 30; ++seed) {

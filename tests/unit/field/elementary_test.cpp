@@ -14,8 +14,8 @@ using std::memcpy;
 
 #include "common/common.h"
 
-// Number of floats from 0.5 up to 2. They are all mantissas with two successive exponents. For a function that handles
-// larger and smaller exponents only by scaling its result, they are all cases.
+// Number of floats from 0.5 up to 2: every mantissa with two successive exponents. These are all cases of a function
+// that for other exponents only scales its result.
 constexpr uint32_t kMantissas = 1u << 24;
 
 float atStep(uint32_t step) { return uniformFloat(0x3F000000u + step); }

@@ -85,9 +85,9 @@ TEST_CASE("analytic gradients follow the field") {
     for (uint32_t seed = 1; seed <= 12; ++seed) {
       std::mt19937 random(seed * 77 + static_cast<uint32_t>(o));
       const FieldProgram program = programOf(op, random, {});
-      // skipped: the noise is finer than the step of the difference quotient
+      // Skips noise that is finer than the step of the difference quotient.
       if (shortestPeriod(program) < 128) continue;
-      // skipped: the smoothed gradients of the op `lattice` are tested separately
+      // Skips the op `lattice`: its gradients are smoothed, and tested separately.
       if (reads(program, Op::lattice)) continue;
       const PointSet points = randomPoints(random, {}, 20'000, 60);
       const Evaluated e = evaluate(scalarKernels(), program.view(), points.points());

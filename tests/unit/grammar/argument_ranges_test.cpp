@@ -93,8 +93,8 @@ TEST_CASE("what comes through other rules is told where it leaves the range", "[
 TEST_CASE("what nothing derives is held to what is certain", "[grammar][ranges]") {
   const auto found = compileText("sgm 1;\n" + kHall + "rule A { sphere(1m); }\nrule B { Hall(0m); } start A;");
   CHECK(brief(found.diagnostics).find("4:15 argument-range") != std::string::npos);
-  // A library has no start, so its rules are checked without callers. Their arguments are unknown: only violations that
-  // occur for all arguments are errors.
+  // A library has no start, so its rules are checked without callers. Their arguments are unknown, so only violations
+  // that do not depend on them are reported.
   const CheckResult library =
       checkFile("sgm 1;\n" + kHall + "rule B(s) { Hall(0m); Hall(s); Hall(rand(0m, 2m)); }", "test.sgm", {});
   CHECK(brief(library.compiled.diagnostics) == "3:18 argument-range; 3:37 argument-range");
@@ -127,8 +127,8 @@ TEST_CASE("sizes of parts of scopes are known from above alone", "[grammar][rang
 }
 
 TEST_CASE("what a rule gives itself is its own affair", "[grammar][ranges]") {
-  // The sizes of these recursive rules decrease, but a condition, a depth or a minimum size ends the recursion before
-  // they leave their range: no messages.
+  // These recursive rules give themselves ever smaller arguments, even below the range, until a condition, a depth or a
+  // minimum size ends the recursion: no messages.
   CHECK(rangeWords("rule Tree(h in 1m..20m) minsize 0.2m -> Leaf { cylinder(0.1*h, h); at(y h) Tree(0.6*h); }\n"
                    "rule Leaf { sphere(0.1m); }\nrule A { Tree(4m); } start A;")
             .empty());

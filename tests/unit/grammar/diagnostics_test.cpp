@@ -322,7 +322,7 @@ TEST_CASE("every diagnostic stands where the fault is", "[grammar][diagnostics]"
 
 namespace {
 
-/// Cases for the codes that are only reported with lowered limits or for several files.
+/// Cases for the codes that are reported only with lowered limits or because of other files.
 std::vector<std::pair<std::string, CompileResult>> cappedCases() {
   std::vector<std::pair<std::string, CompileResult>> out;
   auto add = [&](std::string expected, std::string_view text, auto change) {

@@ -63,8 +63,8 @@ TEST_CASE("Whichever allocation fails, the server serves the next client", "[thr
     const auto answer = next.ask("GET /a HTTP/1.1\r\nHost: h\r\n\r\n");
     REQUIRE(answer);
     CHECK(answer->status == 200);
-    // On a busy machine, the server may not have reached the failing allocation before the test gave up waiting. In
-    // this case the test fails the same allocation again, and waits longer.
+    // On a busy machine, the server may not have reached the failing allocation before the test gave up waiting.
+    // Then the test makes the same allocation fail again, and waits longer.
     const bool doubtful = for_good && all_answered && patience == 5ms;
     patience = doubtful ? 500ms : 5ms;
     if (doubtful) {

@@ -167,8 +167,8 @@ TEST_CASE("a body's pairs are those within each cell where none is wide", "[faul
       for (int i = 0; i < 6; ++i) {
         for (int k = 0; k < 3; ++k) {
           const auto place = [&] { return 128 * anyOf(random, 3); };
-          // On each axis, one corner of the triangle lies in the cell's low face. So the triangle does not lie
-          // completely in a high face of the cell: then it would belong to the next cell.
+          // On each axis, one corner of the triangle lies in the cell's low face. A triangle that lies completely in a
+          // high face of the cell would belong to the next cell.
           const int x = k == 0 ? 0 : place(), y = k == 1 ? 0 : place(), z = k == 2 ? 0 : place();
           of_cell.push_back(cornerAt(256 * cell + x, 256 * 3 + y, 256 * 31 + z, 0));
         }

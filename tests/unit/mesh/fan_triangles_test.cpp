@@ -228,8 +228,8 @@ TEST_CASE("strips between two creases are covered once, with the creases for edg
     const bool from_second = first->name % 2 != 0;
     const auto isFree = [](uint32_t, uint32_t) { return true; };
     const LoopTriangles strip = stripTriangles(ring, from_second, isFree);
-    // No triangles are returned if a wall has none that all face the same way, which is possible if the wall's top is
-    // not convex.
+    // A wall whose top is not convex may have no triangulation whose triangles all face the same way. Then no triangles
+    // are returned.
     if (strip.count() == 0) continue;
     ++seen;
     REQUIRE(strip.count() == ring.size() - 2);

@@ -58,7 +58,7 @@ TEST_CASE("fans are the cycles of interface quads around a corner", "[mesh][fans
       checkerboard |= here == 4;
     }
     if (checkerboard) continue;
-    // The quads form cycles: every quad touches two half axes, and at each of them it meets exactly one other quad.
+    // These quads form cycles: every quad touches two half axes, and at each of them it meets exactly one other quad.
     // Follows each cycle, beginning with its quad of lowest number.
     std::set<size_t> left(interface.begin(), interface.end());
     std::set<int> fans;

@@ -22,8 +22,7 @@ using namespace sgm;
 namespace {
 
 using Vector = std::array<int64_t, 3>;
-using Corners = std::array<int, 3>;  ///< corners of a triangle: for each corner, the number of the cube's edge that it
-                                     ///< lies on
+using Corners = std::array<int, 3>;  ///< numbers of the cube's edges on which the corners of a triangle lie
 
 constexpr int kLeast = 1, kMost = 255;
 
@@ -105,9 +104,9 @@ size_t alignCorners(Corners& a, Corners& b) {
   return common;
 }
 
-/// Whether there is no t in the box with which two triangles with a common side fold onto each other. They fold if they
-/// lie in one plane and on the same side of the common side: their normals, both computed along the common side, then
-/// point the same way.
+/// Whether two triangles with a common side do not fold onto each other for any t in the box. They fold if they lie in
+/// one plane and on the same side of the common side: their normals, both computed along the common side, then point
+/// the same way.
 bool neverFolds(const Box& box, const Corners& a, const Corners& b) {
   if (orientationIn(box, a[0], a[1], a[2], b[2]) != 0) return true;
   for (size_t axis = 0; axis < 3; ++axis) {

@@ -145,7 +145,7 @@ TEST_CASE("what a device leaves to the CPU is told of each") {
   const Result<StageResult> result = measureStage(building(), kCell * 32, 3, backend_runs, [] {});
   REQUIRE(result);
   CHECK(result->rows[0].on_cpu == 0);
-  // there are four runs of one batch each, and the CPU meshes two chunks of every batch
+  // There are four runs of one batch each, and two chunks of every batch count as meshed by the CPU.
   CHECK(result->rows[1].on_cpu == 8);
 }
 

@@ -217,8 +217,8 @@ TEST_CASE("the mesh lies where density begins", "[density][costly]") {
       const Volume edge = volumeOf(queryField(world), ends, 1);
       REQUIRE(edge.values.size() == 2);
       wrong += (edge.values[0] > 0) == (edge.values[1] > 0);
-      // Takes samples at half a cell from the surface, on both sides along the normal. Only the inner side may have
-      // fog, except where the surface is folded.
+      // Takes samples at half a cell from the surface, on both sides along the normal. Only the inner side has fog,
+      // except where the surface is folded.
       DensityGrid sides;
       sides.size = {1, 1, 1};
       float density[2] = {};

@@ -175,8 +175,8 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
     CHECK(found->inside == (away < 0));
     CHECK(std::fabs(boxDistance(found->position, size, turned)) < 1.5);
     CHECK(length(less(found->position, from)) == Approx(found->distance).margin(1e-6));
-    // The tolerance that the interface documents: a distance may be up to 1.5 units too small, or too large by up to
-    // 65.5 units plus 1/64 of itself.
+    // The interface documents the tolerance: a distance may be too large by a quarter of a cell (64 units) plus 1/64 of
+    // the distance. The test allows 1.5 units more, and 1.5 units less.
     CHECK(found->distance > std::fabs(away) - 1.5);
     CHECK(found->distance < std::fabs(away) * 65 / 64 + 64 + 1.5);
     CHECK(far_found->distance == found->distance);

@@ -20,8 +20,8 @@ TEST_CASE("a floor is walkable where a walker fits: slope, head, width, steps an
   const auto areaOf = [&](const std::string& shape, const Walker& walker = {}) {
     return walk(Asked(oneShape(shape)).field, box, walker);
   };
-  const IntBox under{box.lo, {box.hi.x, 2 * 1024, box.hi.z}};  // the top of this box is below the upper sides of the
-                                                               // ceilings, so it contains only the floors beneath them
+  // This box ends below the upper sides of the ceilings, so that it contains only the floors beneath them.
+  const IntBox under{box.lo, {box.hi.x, 2 * 1024, box.hi.z}};
   const double all = 12.0 * 12.0 * kMetre * kMetre;
   const WalkableArea floor = areaOf("box(40m, 2m, 40m);");
   CHECK(floor.walkable);

@@ -35,8 +35,8 @@ bool isBody(const Image& image, int x, int y) {
   return pixel[2] + 4 < std::max(pixel[0], pixel[1]);
 }
 
-/// Numbers of pixels that show a surface and not the sky, by the distance of the pixel from the middle of the ball's
-/// picture, in radii of the ball's outline.
+/// Numbers of pixels for which isBody() is true, by their distance from the middle of the picture, in radii of the
+/// ball's outline: inside (below 0.97), near (1.03 to 1.17) and far. inside_all: number of all pixels inside.
 struct Seen {
   int inside = 0, inside_all = 0, near = 0, far = 0;
   /// For the middle (below 0.6 radii) and the rim (up to the outline): the number of all pixels, and of those through

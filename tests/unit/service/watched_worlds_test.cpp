@@ -125,8 +125,8 @@ TEST_CASE("a map is gathered once a second, whoever asks for it", "[threads]") {
   streamed.settle();
   const std::optional<WorldMap> soon = worlds->map("balls");
   REQUIRE(soon);
-  // The map is made anew only once a second, so it is still the empty one. A busy machine may have taken longer than a
-  // second; then nothing is checked.
+  // The map is made anew at most once a second, so it is still the empty one. A busy machine may have taken longer:
+  // then nothing is checked.
   if (std::chrono::steady_clock::now() - asked < milliseconds(900)) CHECK(soon->total == 0);
   CHECK(comesTrue([&] { return worlds->map("balls")->total > 0; }));
   CHECK(std::chrono::steady_clock::now() - asked >= milliseconds(900));

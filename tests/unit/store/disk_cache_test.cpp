@@ -228,7 +228,7 @@ TEST_CASE("a folder that is far over the limit is brought below it, set by set",
   CHECK(cache->stats().stored == 64);
   for (uint64_t i = 0; i < 64; ++i) CHECK(getFrom(*cache, {i << 58, i}));
   for (const fs::path& file : foreign) CHECK(fs::exists(file));
-  // The cache has evicted none of the latest entries of each of its sets, so these 60 entries still exist.
+  // In each of its sets, the cache has kept the latest entries, so these 60 still exist.
   size_t late = 0;
   for (uint64_t i = 0; i < 60; ++i) late += fs::exists(fileOf(folder, keyNumber(i)));
   CHECK(late == 60);

@@ -55,7 +55,7 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
     changed.insert(end, fraction ? "000001" : ".000001");
     at = end;
     CompileResult compiled = compileGrammar(changed, "test.sgm");
-    // not every change compiles: a count must be a whole number, and the reach must still be provable
+    // Not every change compiles: a count must be a whole number, and the reach must still be provable.
     if (!compiled.program) continue;
     ++numbers;
     other = settings;

@@ -111,7 +111,7 @@ TEST_CASE("a journal gives back what was appended, again and again", "[edits][fi
     CHECK((journal.message.empty() && journal.cut_bytes == 0 && journal.damaged.empty() && journal.left_out == 0));
     journal.journal->append(std::span(all).subspan(from, 5));
     if (from % 16 == 0) REQUIRE(journal.journal->flush());
-    // these last three operations are written when the journal is closed
+    // These last three operations are written when the journal is closed.
     journal.journal->append(std::span(all).subspan(from + 5, 3));
   }
   const OpenedJournal journal = opened(folder.file());

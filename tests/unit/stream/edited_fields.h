@@ -1,5 +1,5 @@
 #pragma once
-// Makes fields of the sample grammar cave.sgm with other parameters, and fields of edited versions of its text.
+// Makes fields of the grammar cave.sgm with other parameters, and fields of edited versions of its text.
 
 #include <memory>
 #include <string>

@@ -243,8 +243,8 @@ TEST_CASE("what is known over new ground does not grow, and what is wanted is ke
     most = std::max(most, flight.planner.stats().records);
   }
   CHECK(flight.planner.stats().meshed > 10 * wanted);
-  // The planner keeps records of up to three times as many chunks as it wants, and of 1,024 more. It counts the records
-  // every 16 plans.
+  // The planner keeps records of at most twice as many chunks as it needs, and of 1,024 more. It counts the records
+  // only every 16 plans, so that there may be more between two counts.
   CHECK(most < 4 * wanted + 2048);
   for (int turn = 0; turn < 500 && !flight.idle; ++turn) flight.plan(200);
   REQUIRE(flight.idle);

@@ -34,7 +34,7 @@ std::vector<Viewer> randomViewers(std::mt19937& random, size_t count, double spr
   return viewers;
 }
 
-/// Splits all nodes below `node` that the viewers require to be split. Examines every viewer for every node, as a
+/// Splits `node` and the nodes in it, as far as the viewers require this. Examines every viewer for every node, as a
 /// reference for the index.
 void splitWanted(Octree& tree, const ChunkKey& node, std::span<const LodViewer> viewers, const LodSettings& lod,
                  double near, const ChunkSet* finest) {

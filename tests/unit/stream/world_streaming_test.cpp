@@ -23,8 +23,8 @@ double wallAlong(const Engine& engine, const std::array<double, 3>& from, double
       const PackedRange& range = mesh.ranges[part];
       for (uint32_t i = range.first_index; i < range.first_index + range.index_count; i += 3) {
         // The triangle's corners relative to a line along the x axis. Seen along this line, the line and each two
-        // corners form a triangle. The line passes through the whole triangle if the signed areas of these three have
-        // the same sign.
+        // corners form a triangle. If the signed areas of these three triangles have the same sign, the line passes
+        // through the original triangle.
         std::array<std::array<double, 3>, 3> p{};
         for (size_t c = 0; c < 3; ++c) {
           const Int3 at = vertexUnits(shown.surface->grid, mesh.vertices[mesh.indices[i + c]]);
@@ -146,7 +146,8 @@ TEST_CASE("no update hands over more bytes than it may, and a small budget loses
     Scene scene(*makeThreadPool(2));
     Engine engine;  // the engine fails the test if a chunk fails
     REQUIRE(scene.world->setViewers({&viewer, 1}));
-    // beyond: by how many bytes the deliveries so far exceed the budgets so far; later, smaller deliveries reduce it.
+    // beyond: number of bytes that were delivered in excess of the budgets, and that later budgets have not yet made up
+    // for.
     size_t updates = 0, beyond = 0, largest = 0;
     while (!scene.world->stats().idle && ++updates < 100'000) {
       REQUIRE(scene.world->update(budget));

@@ -199,7 +199,7 @@ TEST_CASE("texture coordinates are as long as the surface, at right angles, and 
       const TextureSpace space(sample.chunk, 0, kUnitsPerMetre);
       for (int tries = 0; tries < 40; ++tries) {
         SurfacePoint s = sample.point(random);
-        // the surface of a shape that is cut away: its inside is void
+        // Every second point is on a shape that is cut away, whose inside is void.
         if (tries % 2 == 1) s.normal = times(-1, s.normal);
         const Chart chart = space.chartOf(s.place, s.normal);
         TexturePoint side = crossOf(s.normal, randomDirection(random));

@@ -106,8 +106,7 @@ TEST_CASE("cubes at any angle deviate by a twentieth of a cell", "[validity][cub
 
 TEST_CASE("wedges whose edges touch samples are valid", "[validity][cubes][sharp][costly]") {
   // A sample that touches the edge of a wedge often becomes a tiny solid component of its own, 1/256 of a cell wide.
-  // The sharp edge of the wedge must not pass around this component. In an earlier version it did, for the first two
-  // seeds.
+  // The sharp edge of the wedge must not enclose this component. In an earlier version it did, for the first two seeds.
   constexpr unsigned kFirst = 241;
   const ReportContext shop;
   for (unsigned seed = kFirst; seed < kFirst + rounds(60); ++seed) {

@@ -193,8 +193,8 @@ TEST_CASE("random solids are valid with sharp features", "[validity][solids][sha
 
 TEST_CASE("a speck that an edge grows round stays outside of the solid", "[validity][solids][sharp]") {
   // With this seed, a sample next to an edge of the solid touches the surface. The mesh has a separate, closed surface
-  // around that sample, 1/256 of a cell wide. In an earlier version, the solid enclosed this small surface, because
-  // sharp edges are placed only to within 1/25 of a cell.
+  // around that sample, 1/256 of a cell wide. In an earlier version, the sharp edge, which is exact only to 1/25
+  // of a cell, enclosed this small surface.
   const ReportContext shop;
   std::mt19937 random(312);
   const WorldField world(worldOf(compiled(randomSolid(random)), 0.5, 1), std::pmr::get_default_resource());

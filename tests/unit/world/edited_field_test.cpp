@@ -18,7 +18,7 @@ using namespace sgm;
 
 namespace {
 
-// A layer without shapes: a grammar that adds it after its `domain` statement has no other content.
+// A layer without shapes. It completes a grammar that consists of nothing but its domain.
 const std::string kNothing = "layer none cell 64m reach 1m { start None; }\nrule None { }\n";
 const std::string kEmpty = "sgm 1; units m;\ndomain infinite empty;\n" + kNothing;
 const std::string kSolid = "sgm 1; units m;\ndomain infinite solid;\n" + kNothing;
@@ -132,8 +132,8 @@ TEST_CASE("a brush is solid or void inside, of its material, and nothing far awa
   for (uint32_t seed = 1; seed <= rounds(200); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
-    // Every second seed tests positions far from the origin, where positions are equally exact, because they are
-    // integers.
+    // Every second seed tests positions far from the origin. Positions are integers, so they are as exact there as near
+    // the origin.
     const int32_t far = seed % 2 ? 0 : 2'000'000'000;
     const IntBox around = IntBox{{far, -far, far}, {far, -far, far}}.grown(3000);
     Brush brush = randomBrush(random, around, 4000);

@@ -223,8 +223,8 @@ TEST_CASE("chunks of random rules and overrides have the program of all cells in
   std::mt19937 random(seed);
   Compared compared;
   size_t unproven = 0;
-  // A quarter of the random grammars does not compile, and few of them have no proof. So rounds continue until grammars
-  // with and without a proof have occurred often enough.
+  // A quarter of the random grammars do not compile, and few of the others have no proof. So rounds continue until
+  // grammars with and without a proof have occurred often enough.
   const auto enough = [&] { return compared.groups > 20 && unproven > 0; };
   for (unsigned round = 0; round < rounds(60) || (!enough() && round < 600); ++round) {
     RandomRules made(random());

@@ -60,7 +60,7 @@ TEST_CASE("Bouthors: blobs stand upon blobs, each level on the surface of the on
   REQUIRE(heaps);
   std::map<std::string, Int3> places;
   for (const RuleInstance& heap : *heaps) places[heap.path] = heap.origin;
-  // key: path of a heap; value: its distances to the heaps that stand on it
+  // Key: path of a heap. Value: its distances to the heaps that stand on it.
   std::map<std::string, std::vector<double>> away;
   std::vector<std::string> first;  // path of the first heap of each cloud
   for (const auto& [path, place] : places) {

@@ -17,7 +17,7 @@ inline std::filesystem::path formerFile(const std::string& name) {
   return std::filesystem::path(SGM_UNIT_DATA) / "version_0_2" / name;
 }
 
-/// Returns the settings of that world. change: a text that replaces `box(2m` in the grammar.
+/// Returns the settings of the world of version 0.2. change: a text that replaces `box(2m` in the grammar.
 inline WorldFieldSettings formerWorld(const std::string& change = "box(2m") {
   WorldFieldSettings settings =
       settingsOf(replaced(textOfFile(formerFile("hollow.sgm").string()), "box(2m", change), kUnitsPerMetre, 5);

@@ -52,9 +52,9 @@ func _handles(object: Object) -> bool:
 	return _text_editing != null and object.is_class("SgmGrammar")
 
 
-# Shows a grammar that is opened as a resource as text, like a script. The engine also calls this function for a grammar
-# that is only unfolded among a world's properties. The inspector then still edits the world, so such a grammar is not
-# shown.
+# When a grammar is opened as a resource, shows it as text, like a script. The engine also calls this function for a
+# grammar that is only unfolded among a world's properties. The inspector then still edits the world, so such a grammar
+# is not shown.
 func _edit(object: Object) -> void:
 	if object != null:
 		_show_text.call_deferred(object)

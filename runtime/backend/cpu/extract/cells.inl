@@ -233,11 +233,11 @@ class LoopQueues {
 static_assert(kLongestCubeLoop == 7);
 
 /// Several crossed edges, each with one vertex, can start at the same sample. A byte for each of the edges 4 to 11 of a
-/// cube tells how many vertices of the sample precede the edge's vertex; its number is this byte plus the number of the
-/// sample's first vertex. Edges 0 to 3 run along x, so each of them has the first vertex of its sample.
+/// cube tells how many vertices of the sample precede the edge's vertex, whose number is thus this byte plus the number
+/// of the sample's first vertex. Edges 0 to 3 run along x, so each of them has the first vertex of its sample.
 ///
-/// The byte is the sum of two parts. of_case: counts crossed edges of the cell itself. of_high: counts crossed
-/// edges beyond the cell, along x (bits 0 to 2: rows 0 to 2 at high x) and y (bits 3, 4: row 1 at low and high x).
+/// The byte is the sum of two parts. of_case: counts crossed edges of the cell itself. of_high: counts crossed edges
+/// beyond the cell, along x (bits 0 to 2: rows 0 to 2 at high x) and y (bits 3, 4: row 1 at low and high x).
 struct CellSteps {
   uint64_t of_case[256], of_high[32];
 };

@@ -7,8 +7,8 @@ FN uint64_t wordMask(size_t word, size_t count) {
 }
 
 /// Returns a mask of the groups of words in which four adjacent rows may have crossed edges or active cells. If the bit
-/// of a group is 0, the samples of this group and of the next one are all void or all solid. The next group matters
-/// because the last cells of a group reach into it.
+/// of a group is 0, the samples of this group and of the next one in these rows are all void or all solid. The next
+/// group matters because the last cells of a group reach into it.
 FN uint64_t mixedGroups(const SignLattice& lattice, const size_t (&y)[2], const size_t (&z)[2]) {
   const size_t group = lattice.group(), groups = group == 1 ? lattice.words : (lattice.words + group - 1) / group;
   if (lattice.words == 1 || lattice.uniform == nullptr) return wordMask(0, groups);
@@ -42,8 +42,8 @@ inline constexpr int kPlaceBits = 14;
 inline constexpr uint32_t kPlaceMask = (1u << kPlaceBits) - 1;
 
 /// Packs an active cell of a layer into one number: `place`, the index of its lowest sample in the plane; `beyond`,
-/// which edges beyond the cell are crossed (the index into CellSteps::of_high); and `cell_case`, its marching
-/// cubes case.
+/// which edges beyond the cell are crossed (the index into CellSteps::of_high); and `cell_case`, its marching cubes
+/// case.
 constexpr uint64_t packedCell(size_t place, uint32_t beyond, uint32_t cell_case) {
   return uint64_t{place} << 16 | beyond << 8 | cell_case;
 }

@@ -24,8 +24,8 @@ FN void forWords(const SignLattice& lattice, uint64_t wanted, F&& f) {
   }
 }
 
-/// For each case of a cell: which edges along x are crossed. Bits 0, 1 and 2 stand for the edges in the rows (y, z), (y
-/// + 1, z) and (y, z + 1).
+/// For each case of a cell: which edges along x are crossed. Bits 0, 1 and 2 stand for the edges in the rows (y, z),
+/// (y + 1, z) and (y, z + 1).
 struct CaseEdges {
   uint8_t along_x[256];
 };
@@ -43,8 +43,8 @@ inline constexpr CaseEdges kCaseEdges = makeCaseEdges();
 struct WordCells {
   const uint64_t* corner;  ///< signs at the cells' eight corners, in the order of a case's bits; then one unused word
   uint32_t next_case;      ///< case of the cell after the word's last cell; 0 if there is none
-  /// one bit per cell: whether the cell's edge along y that starts at y + 1 is crossed; [0]: the edge at low x, [1]: at
-  /// high x
+  /// one bit per cell: whether the edge along y beyond the cell, from y + 1 to y + 2, is crossed; [0]: the edge at low
+  /// x, [1]: the edge at high x
   uint64_t along_y[2];
   uint64_t active;
   size_t place;  ///< index of the word's first cell in the plane

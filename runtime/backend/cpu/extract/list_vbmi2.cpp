@@ -38,8 +38,8 @@ namespace {
 #include "backend/cpu/extract/lattice.inl"
 
 /// Where a vector of edges holds the edges along one axis. Three vectors list the possible edges of 64 samples, one
-/// byte per edge: the x, y and z edge of each sample in turn. shift: index of the first sample in the vector, as a
-/// shift of the axis's word of crossed edges. bytes: mask of the bytes of the vector that hold edges along the axis.
+/// byte per edge: the x, y and z edge of each sample in turn. shift: index of the first sample whose edge along the
+/// axis is in the vector. bytes: mask of the bytes of the vector that hold edges along the axis.
 struct TurnOfAxis {
   int shift;
   uint64_t bytes;
@@ -256,7 +256,7 @@ FN size_t wordsOf(const SignLattice& lattice, const RowsOfCells& around, size_t 
 }  // namespace
 
 /// Same as listRows of list.inl, but processes whole words of samples. It first finds the words with edges; the work on
-/// a word then has no branch that depends on the number of the word's edges and cells.
+/// a word then has no unpredictable branch on the number of the word's edges and cells.
 ListCounts listRowsVbmi2(const SignLattice& lattice, size_t z, size_t first, size_t last, uint32_t* edges,
                          uint64_t* cells) {
   const bool above = z + 1 < lattice.size[2];

@@ -124,7 +124,7 @@ struct MeshScratch {
   RawArray<uint32_t> brick;
   RawArray<int32_t> place_x, place_y, place_z;
   /// The order in which the vertices are evaluated, brick by brick: `order` contains their indices; the arrays after it
-  /// contain their attributes in this order.
+  /// contain their positions and attributes in this order.
   RawArray<uint32_t> order, label;
   RawArray<int32_t> x, y, z, q;
   RawArray<int16_t> normal_x, normal_y;

@@ -22,8 +22,8 @@ struct BakeOptions : WorldOptions {
   /// merged.
   std::string shard;
   bool merge = false;               ///< true: merges finished shards into the store instead of baking
-  uint64_t slurm = 0;               ///< number of shards, each of which Slurm bakes as a separate job; 0: this process
-                                    ///< bakes
+  uint64_t slurm = 0;               ///< number of shards that Slurm bakes, each as a task of an array job; 0: this
+                                    ///< process bakes
   std::vector<std::string> sbatch;  ///< options of the command sbatch for the jobs of Slurm
   bool detach = false;              ///< true: submits the jobs of Slurm without waiting for their end
 };

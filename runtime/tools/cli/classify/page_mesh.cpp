@@ -31,7 +31,7 @@ void thinOut(std::vector<uint32_t>& indices) {
 }
 
 /// Merges points at the same position. Otherwise the simplifier would take them for the two sides of a seam, and it
-/// must not move seams. It could then collapse no edge of a mesh whose triangles share no points.
+/// must not move seams: it could not collapse any edge of a mesh whose triangles share no points.
 void weld(std::vector<uint32_t>& indices, std::vector<Position>& positions) {
   std::vector<uint32_t> remap(positions.size());
   const size_t count = meshopt_generateVertexRemap(remap.data(), indices.data(), indices.size(), positions.data(),

@@ -1,6 +1,5 @@
 #pragma once
-// `sgm render --plan` and `--section`: draws a survey of a region (a plan or a section, as of a cave) instead of a
-// picture.
+// `sgm render --plan` and `--section`: draws a survey (plan or section) of a region instead of a picture.
 
 #include "tools/support/console.h"
 #include "tools/support/render_options.h"

@@ -52,8 +52,8 @@ ReaderLimits readerLimits(const ServerSettings& settings) {
 
 }  // namespace
 
-/// Wraps a completion handler: the wrapper keeps the connection alive until it is called. If the handler throws because
-/// memory is short, the wrapper closes the connection, which would otherwise hang.
+/// Wraps a completion handler: the wrapper keeps the connection alive until the handler is called. If the handler
+/// throws because memory is short, the wrapper closes the connection, which would otherwise hang.
 template <class Call>
 auto Connection::guarded(Call call) {
   return [self = shared_from_this(), call](const ErrorCode& error, auto...) {

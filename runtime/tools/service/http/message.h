@@ -30,8 +30,7 @@ struct Request {
   /// request.
   std::shared_ptr<const std::atomic<bool>> gone;
 
-  /// Returns the value of the first header with this name, whose letters may be of either case; nullopt if there is
-  /// none.
+  /// Returns the value of the first header with this name, regardless of case; nullopt if there is none.
   std::optional<std::string_view> field(std::string_view name) const;
   /// The first value of the query parameter with this name; nullopt if there is none.
   std::optional<std::string_view> parameter(std::string_view name) const;

@@ -50,10 +50,9 @@ namespace {
 namespace net = boost::asio;
 using Tcp = net::ip::tcp;
 
-/// Number of surplus clients that may concurrently get a 503: an eighth of ServerSettings::connections, but never more
-/// than this constant. The connections of further clients are closed without an answer.
+/// Maximum number of surplus clients that concurrently get a 503: an eighth of ServerSettings::connections, but at most
+/// kMaxTurnedAway and at least kMinTurnedAway. The connections of further clients are closed without an answer.
 constexpr size_t kMaxTurnedAway = 64;
-/// At least this many surplus clients may concurrently get a 503, even if an eighth of the connections is less.
 constexpr size_t kMinTurnedAway = 8;
 
 size_t maxTurnedAway(size_t connections) { return std::clamp(connections / 8, kMinTurnedAway, kMaxTurnedAway); }

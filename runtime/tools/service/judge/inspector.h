@@ -65,7 +65,7 @@ class Inspector {
   virtual Result<void> inspect(Upload upload, std::function<void()> began, std::function<void(Inspection)> done) = 0;
   /// Reads or replaces the reference histograms in a process (GET and PUT /api/v1/masters). `done` receives a status
   /// and JSON as in Inspection; the status is 409 if no writable file is configured. These requests have a queue of
-  /// their own, which one thread processes: one request after another. If that queue is full, `done` receives a 503
+  /// their own, from which one thread processes one at a time. If that queue is full, `done` receives a 503
   /// immediately.
   virtual void readMasters(std::function<void(Inspection)> done) = 0;
   virtual void writeMasters(std::string json, std::function<void(Inspection)> done) = 0;

@@ -1,4 +1,4 @@
-// The list of all reports that the service stores, of all clients' uploads.
+// The list of all reports that the service stores, for the uploads of all clients.
 
 import { element, verdict } from './element.js';
 import { bytes, clock, duration, nothing } from './format.js';

@@ -19,7 +19,7 @@ namespace sgm::cli {
 namespace {
 
 /// The message for a usage error. If the word in the place of a command is not the name of a command, the message
-/// suggests the most similar command. Otherwise the message is CLI11's own.
+/// suggests the most similar command or, if none is similar, all commands. Otherwise it is CLI11's own message.
 std::string errorTextOf(const CLI::App& root, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<const CLI::App*> commands = root.get_subcommands(nullptr);
   for (int i = 1; i < argc && !commands.empty() && argv[i][0] != '-'; ++i) {

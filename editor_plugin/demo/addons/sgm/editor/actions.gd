@@ -2,7 +2,7 @@
 extends GridContainer
 ## The buttons of the dock, which act on the selected world.
 
-## Emitted after an action: with a sentence about its error, or with an empty text if it succeeded.
+## Emitted with a sentence about the error of an action, or with an empty text if there is none.
 signal told(sentence: String)
 
 const TextEditing := preload("text_editing.gd")

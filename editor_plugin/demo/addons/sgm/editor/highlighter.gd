@@ -68,7 +68,7 @@ func _get_line_syntax_highlighting(line: int) -> Dictionary:
 	return colors
 
 
-## Returns the parts of a line in order: for each part, the column where it begins, and the kind of its words.
+## Returns the parts of a line in order: for each part, the column where it begins, and its kind.
 func kinds_of(text: String) -> Array[Array]:
 	var parts: Array[Array] = []
 	for found in _regex.search_all(text):

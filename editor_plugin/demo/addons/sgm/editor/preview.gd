@@ -66,8 +66,7 @@ func _refresh_gizmos() -> void:
 	for world in worlds:
 		var id := world.get_instance_id()
 		drawn[id] = [world.is_idle(), world.get_bounds(), world.global_transform, place]
-		# While a world streams, its anchors may change even if its bounds do not. So its gizmo is updated in any case until
-  # the world is idle.
+		# While a world streams, its anchors may change even if its bounds do not, so its gizmo is always updated.
 		if not world.is_idle() or drawn[id] != _drawn.get(id):
 			world.update_gizmos()
 	_drawn = drawn
