@@ -4,6 +4,7 @@
 
 #include "files.h"
 #include "godot/class_binder.h"
+#include "godot/error.h"
 #include "plugin.h"
 
 namespace sgm_godot {
@@ -51,8 +52,6 @@ const char* nameOf(sgm_quantity quantity) {
       return "other";
   }
 }
-
-constexpr int64_t kOk = 0, kErrorFileCannotOpen = 12, kErrorParse = 43;
 
 }  // namespace
 

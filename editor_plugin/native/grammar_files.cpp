@@ -2,13 +2,13 @@
 
 #include "files.h"
 #include "godot/class_binder.h"
+#include "godot/error.h"
 #include "grammar.h"
 #include "plugin.h"
 
 namespace sgm_godot {
 namespace {
 
-constexpr int64_t kErrorFileCannotOpen = 12, kErrorFileCannotWrite = 13, kErrorInvalidParameter = 31;
 constexpr std::string_view kEnding = ".sgm";
 
 bool isGrammar(const std::string& path) {

@@ -3,22 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "godot/error.h"
 #include "godot/log.h"
 #include "number_text.h"
 
 namespace sgm_godot {
 namespace {
 
-constexpr int64_t kOk = 0, kFailed = 1, kErrorUnconfigured = 3, kErrorInvalidData = 30;
-
-int32_t wholeUnits(double units) {
+int32_t roundedUnits(double units) {
   return static_cast<int32_t>(std::clamp(std::round(units), double{INT32_MIN}, double{INT32_MAX}));
 }
-int32_t lengthUnits(double metres) { return wholeUnits(metres * SGM_UNITS_PER_METRE); }
+int32_t lengthUnits(double metres) { return roundedUnits(metres * SGM_UNITS_PER_METRE); }
 
 void place(const Placement& placement, const Vector3& position, int32_t units[3]) {
   const Units exact = placement.toUnits(position);
-  for (size_t axis = 0; axis < 3; ++axis) units[axis] = wholeUnits(exact[axis]);
+  for (size_t axis = 0; axis < 3; ++axis) units[axis] = roundedUnits(exact[axis]);
 }
 
 /// Whether a length of a brush lies between `least` and 1,024 m; otherwise logs an error.
