@@ -13,12 +13,14 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 export HOME=$folder/home XDG_DATA_HOME=$folder/home XDG_CONFIG_HOME=$folder/home XDG_CACHE_HOME=$folder/home
 # The driver's shader cache is shared between tests, because shaders take long to compile.
-export MESA_SHADER_CACHE_DIR=$root/build/godot/home/cache
+export MESA_SHADER_CACHE_DIR=$root/build/godot/home/cache GALLIVM_PERF=nopt
 project=$folder/demo
 mkdir -p "$HOME" "$project/tests"
 cp -a "$root/editor_plugin/demo/." "$project/"
 cp -a "$tests/lib/driver" "$project/addons/sgm_test"
 sed -i 's#^enabled=PackedStringArray(#&"res://addons/sgm_test/plugin.cfg", #' "$project/project.godot"
+mkdir -p "$root/build/godot/editor_shaders"
+[[ -e $project/.godot/shader_cache ]] || ln -s "$root/build/godot/editor_shaders" "$project/.godot/shader_cache"
 cat >"$project/tests/close.gd" <<'SCRIPT'
 @tool
 extends RefCounted

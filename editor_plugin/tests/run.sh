@@ -73,6 +73,9 @@ judge() {
 
 run_one() {
   local name=$1 kind=${1%%/*} project log status=0 resolution command
+  # The software renderer compiles shaders twice as fast without optimising them, which also draws more slowly. So tests
+  # that draw few pictures ask for this.
+  local fast_compiler=(env GALLIVM_PERF=nopt)
   [[ -e $tests/$name.gd ]] || die "there is no test $name"
   project=$(project_of "${name//\//_}")
   log=$out/tests/${name//\//_}.log
@@ -82,8 +85,8 @@ run_one() {
       # Only the test `closed`, which searches for holes, needs many pixels. Other tests draw fewer, because a software
       # device needs long for each pixel.
       resolution=640x360
-      [[ $name != */closed ]] || resolution=1280x720
-      command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution $resolution
+      [[ $name != */closed ]] || { resolution=1280x720 && fast_compiler=(); }
+      command=(${fast_compiler[@]+"${fast_compiler[@]}"} xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution $resolution
         --path "$project" --script "tests/$name.gd")
       ;;
     pictures) command=(xvfb-run -a -s "-screen 0 1920x1200x24" "$godot" --rendering-driver vulkan --resolution 1920x1080
@@ -91,11 +94,14 @@ run_one() {
     opengl) command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-method gl_compatibility
       --rendering-driver opengl3 --resolution 1280x720 --path "$project" --script "tests/$name.gd") ;;
     editor)
+      # The editor keeps the shaders that it has compiled in the project; tests share them, because compiling takes long.
+      mkdir -p "$out/editor_shaders"
+      [[ -e $project/.godot/shader_cache ]] || ln -s "$out/editor_shaders" "$project/.godot/shader_cache"
       # Adds a plugin to the project's copy, which loads the test into the editor.
       cp -a "$tests/lib/driver" "$project/addons/sgm_test"
       sed -i "s#^enabled=PackedStringArray(#&\"res://addons/sgm_test/plugin.cfg\", #" "$project/project.godot"
       export SGM_EDITOR_TEST="res://tests/$name.gd"
-      command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution 1600x900 --editor
+      command=("${fast_compiler[@]}" xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution 1600x900 --editor
         --path "$project")
       ;;
     *) die "tests lie in headless, rendered, opengl, editor and pictures, not in '$kind'" ;;

@@ -20,8 +20,6 @@ var _dock: Dock
 func run(plugin: EditorPlugin) -> void:
 	_plugin = plugin
 	_tree = plugin.get_tree()
-	# Draw continuously: by default, the editor draws only when something has changed.
-	OS.low_processor_usage_mode = false
 	_tree.root.mode = Window.MODE_WINDOWED
 	_tree.root.size = WINDOW
 	_dock = _tree.root.find_children("SG+M", "VBoxContainer", true, false)[0]
@@ -195,11 +193,13 @@ func _save_picture() -> void:
 	var lights := _lights()
 	for light in lights:
 		EditorInterface.get_edited_scene_root().add_child(light)
+	RenderingServer.render_loop_enabled = true
 	await _frames(20)
 	await RenderingServer.frame_post_draw
 	var picture := _tree.root.get_texture().get_image()
 	_checks.equal(picture.get_size(), WINDOW, "size of the picture")
 	_checks.equal(picture.save_png(OS.get_environment("SGM_PICTURES").path_join("editor.png")), OK, "picture is saved")
+	RenderingServer.render_loop_enabled = false
 	for light in lights:
 		light.free()
 

@@ -16,8 +16,6 @@ var _tree: SceneTree
 func run(plugin: EditorPlugin) -> void:
 	_plugin = plugin
 	_tree = plugin.get_tree()
-	# Draw continuously: by default, the editor draws only when something has changed.
-	OS.low_processor_usage_mode = false
 	for type in CLASSES:
 		var reference := _read("res://tests/doc/%s.xml" % type)
 		_check_described(type, reference)

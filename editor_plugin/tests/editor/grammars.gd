@@ -229,9 +229,11 @@ func _write(path: String, text: String) -> void:
 
 
 func _save_picture(name: String) -> void:
+	RenderingServer.render_loop_enabled = true
 	await _frames(10)
 	await RenderingServer.frame_post_draw
 	var picture := _tree.root.get_texture().get_image()
+	RenderingServer.render_loop_enabled = false
 	_checks.equal(picture.save_png(OS.get_environment("SGM_PICTURES").path_join(name)), OK, "picture is saved")
 
 
