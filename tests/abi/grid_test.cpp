@@ -156,13 +156,14 @@ TEST_CASE("a grid of many slabs is meshed alike however many there are, and howe
       // Selects the same sample rows as the mesher, which estimates the size of the result from them
       // (api/grid_mesh.cpp).
       const double turn = z * 0.6180339887498949, row = std::floor((turn - std::floor(turn)) * (grid.size[1] - 2));
-      const bool solid[] = {std::sin(x * 0.31) + std::sin(y * 0.37) + std::sin(z * 0.41) < 0,
-                            x > 90 && x < 96 && y > 70 && y < 75 && (z < 3 || z > 30),
-                            std::fabs(y - row) <= 1 && std::fmod(x, 4) < 2, z + 4 > grid.size[2]};
+      const bool solid = kind == 0   ? std::sin(x * 0.31) + std::sin(y * 0.37) + std::sin(z * 0.41) < 0
+                         : kind == 1 ? x > 90 && x < 96 && y > 70 && y < 75 && (z < 3 || z > 30)
+                         : kind == 2 ? std::fabs(y - row) <= 1 && std::fmod(x, 4) < 2
+                                     : z + 4 > grid.size[2];
       const bool border =
           x == 0 || y == 0 || z == 0 || x + 1 == grid.size[0] || y + 1 == grid.size[1] || z + 1 == grid.size[2];
       const auto value = static_cast<float>(1 + random() % 1000) / 1000.0f;
-      return solid[kind] && !border ? -value : value;
+      return solid && !border ? -value : value;
     });
     uint64_t first = 0;
     for (const uint32_t threads : {1u, 2u, 5u}) {

@@ -51,7 +51,7 @@ TEST_CASE("what comes from the disk lies on the lent device, too", "[vulkan][cos
   std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("a dig and its undo lie on the lent device, as do seams that come later", "[vulkan]") {
+TEST_CASE("a dig and its undo lie on the lent device, as do seams that come later", "[vulkan][costly]") {
   if (!vk::haveDevice()) return;
   Lender lender;
   const RuntimeOwner runtime = externalRuntime(lender);

@@ -201,7 +201,7 @@ TEST_CASE("random polygons without crossings are cut into triangles that fill th
   }
 }
 
-TEST_CASE("polygons of many corners take n log n steps, not n squared", "[asset][polygon]") {
+TEST_CASE("polygons of many corners take n log n steps, not n squared", "[asset][polygon][costly]") {
   constexpr int kCorners = 100000;
   Polygon gear, comb, spiral;
   for (int i = 0; i < kCorners; ++i) {

@@ -32,7 +32,8 @@ std::vector<Specimen> peaks() {
 
 }  // namespace
 
-TEST_CASE("every family's grammar compiles, and there are families of each class at each density", "[masters]") {
+TEST_CASE("every family's grammar compiles, and there are families of each class at each density",
+          "[masters][costly]") {
   for (const Family& family : families()) {
     CAPTURE(family.file, family.cell);
     CHECK(ModelMaker::create(family));

@@ -7,6 +7,7 @@
 #include "grammar/range/interval.h"
 #include "grammar/range/reach_values.h"
 #include "messages.h"
+#include "rounds.h"
 
 using namespace sgm;
 using namespace sgm::test;
@@ -194,8 +195,8 @@ TEST_CASE("what is proven in pieces holds for every value", "[grammar][reach]") 
     state = state * 6364136223846793005u + 1442695040888963407u;
     return (state >> 33) % below;
   };
-  int bounded = 0;
-  for (int round = 0; round < 200; ++round) {
+  unsigned bounded = 0;
+  for (unsigned round = 0; round < rounds(200); ++round) {
     const double low = 0.25 * static_cast<double>(1 + draw(8)), high = low + 0.25 * static_cast<double>(draw(24));
     const double a = 0.25 * static_cast<double>(1 + draw(6)), b = 0.125 * static_cast<double>(draw(8)),
                  c = 0.25 * static_cast<double>(draw(8));
@@ -217,5 +218,5 @@ TEST_CASE("what is proven in pieces holds for every value", "[grammar][reach]") 
     INFO("round " << round << ": " << value << " of " << low << ".." << high);
     CHECK(most <= bound + 0.002);
   }
-  CHECK(bounded > 100);
+  CHECK(2 * bounded > rounds(200));
 }

@@ -63,7 +63,7 @@ void checkRanges(const Declarations& declarations, std::string_view text) {
 
 }  // namespace
 
-TEST_CASE("names of the samples are declared where the compiler finds them", "[grammar][editor]") {
+TEST_CASE("names of the samples are declared where the compiler finds them", "[grammar][editor][costly]") {
   size_t checked = 0;
   for (const auto& [text, folder] : sampleTexts()) {
     FolderResolver files(folder);

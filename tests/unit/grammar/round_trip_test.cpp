@@ -9,6 +9,7 @@
 #include "compile_text.h"
 #include "grammar/std/std_library.h"
 #include "random_program.h"
+#include "rounds.h"
 
 using namespace sgm;
 using namespace sgm::test;
@@ -62,7 +63,7 @@ TEST_CASE("every part of the standard library is canonical", "[grammar][round]")
 }
 
 TEST_CASE("random programs: printing is a fixed point and keeps the meaning", "[grammar][round]") {
-  for (uint64_t seed = 1; seed <= 400; ++seed) {
+  for (uint64_t seed = 1; seed <= rounds(400); ++seed) {
     const std::string text = randomProgram(seed);
     INFO("seed " << seed << "\n" << text);
     const std::string once = formatted(text);

@@ -272,7 +272,7 @@ TEST_CASE("no triangulation that a cube's case may get cuts itself, for any plac
 }
 
 TEST_CASE("of a loop of seven, the triangulations that chordMask forbids are half, and hold all that can cut",
-          "[mesh][tables]") {
+          "[mesh][tables][costly]") {
   const Cell cell = cubeCell();
   size_t loops = 0;
   for (uint32_t solid = 0; solid < 256; ++solid) {

@@ -71,7 +71,7 @@ RegionMeasures measured(const LatticeField& field, const IntBox& lattice) {
 
 }  // namespace
 
-TEST_CASE("regions of random fields: pieces, volume, borders", "[metrics]") {
+TEST_CASE("regions of random fields: pieces, volume, borders", "[metrics][costly]") {
   for (uint64_t seed = 1; seed <= rounds(10); ++seed) {
     PathKey random{hashCombine(0x6D657472, seed)};
     const Int3 chunks{1 + static_cast<int>(random.unit(1) * 2), 1 + static_cast<int>(random.unit(2) * 2),

@@ -231,7 +231,7 @@ TEST_CASE("digs that come with every plan keep nothing from being drawn") {
   }
 }
 
-TEST_CASE("what is known over new ground does not grow, and what is wanted is kept") {
+TEST_CASE("what is known over new ground does not grow, and what is wanted is kept", "[costly]") {
   Flight flight(false);
   for (int turn = 0; turn < 500 && !flight.idle; ++turn) flight.plan(200);
   REQUIRE(flight.idle);

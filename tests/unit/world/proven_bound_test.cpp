@@ -171,7 +171,7 @@ void comparePrograms(const WorldField& world, std::mt19937& random, int boxes, C
 
 }  // namespace
 
-TEST_CASE("the groups of every sample lie within what is proven of its layers") {
+TEST_CASE("the groups of every sample lie within what is proven of its layers", "[costly]") {
   const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
