@@ -21,7 +21,7 @@ struct Slot final : DeviceSlot {
   BatchMemory memory;
   /// the stream to wait for: memory.stream for a batch, memory.reading for copies that are made later
   Stream* awaited = nullptr;
-  std::unique_ptr<Placement> placed;  ///< the memory on the rendering device to which this slot's copies write
+  std::unique_ptr<MeshPlacement> placed;  ///< the memory on the rendering device to which this slot's copies write
 };
 
 uint32_t partOf(const Plan::Parts& parts, size_t number) { return number == 0 ? parts.body : parts.seams[number - 1]; }
@@ -87,7 +87,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     auto& slot = static_cast<Slot&>(base);
     if (Result<void> waited = slot.awaited->wait(); !waited) return waited;
     // If publishing fails, the meshes are missing on the rendering device, but the CUDA device is not lost: only warn.
-    if (const std::unique_ptr<Placement> placed = std::move(slot.placed)) {
+    if (const std::unique_ptr<MeshPlacement> placed = std::move(slot.placed)) {
       if (const Result<void> published = placed_->store().publish(*placed); !published) tell(published.error());
     }
     return {};
@@ -129,7 +129,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
  private:
   Result<std::vector<DeviceParts>> keep(Slot& slot, Stream& stream, std::span<const PartSources> sources) {
     if (!placed_) return kept_->keep(shared_from_this(), stream, sources);
-    Result<std::unique_ptr<Placement>> placed = placed_->keep(stream, sources);
+    Result<std::unique_ptr<MeshPlacement>> placed = placed_->keep(stream, sources);
     if (!placed) return placed.error();
     slot.placed = std::move(*placed);
     return slot.placed->chunks;

@@ -21,7 +21,9 @@ namespace {
 /// a failure no other code would wait for them.
 class Writing {
  public:
-  Writing(Stream& stream, Placement& placement) : stream_(stream), placement_(placement) { placement.writing = true; }
+  Writing(Stream& stream, MeshPlacement& placement) : stream_(stream), placement_(placement) {
+    placement.writing = true;
+  }
   ~Writing() {
     if (given_) return;
     try {
@@ -36,7 +38,7 @@ class Writing {
 
  private:
   Stream& stream_;
-  Placement& placement_;
+  MeshPlacement& placement_;
   bool given_ = false;
 };
 
@@ -56,7 +58,7 @@ Result<std::unique_ptr<PlacedMeshes>> PlacedMeshes::create(Device& device, std::
   // Try to import a block now, so that a failure is found before the first mesh is made.
   PartSizes least{};
   least[0] = {1, 1};
-  const std::unique_ptr<Placement> trial = meshes->store_->place({&least, 1});
+  const std::unique_ptr<MeshPlacement> trial = meshes->store_->place({&least, 1});
   if (trial->parts.empty()) return Error{Code::out_of_memory, "the drawing device has no memory for a single mesh"};
   for (const PartPlace& part : trial->parts) {
     const auto imported = meshes->import(*part.block);
@@ -100,10 +102,10 @@ Result<std::shared_ptr<const ImportedMemory>> PlacedMeshes::import(SharedBlock& 
   return made;
 }
 
-Result<std::unique_ptr<Placement>> PlacedMeshes::keep(Stream& stream, std::span<const PartSources> chunks) {
+Result<std::unique_ptr<MeshPlacement>> PlacedMeshes::keep(Stream& stream, std::span<const PartSources> chunks) {
   std::vector<PartSizes> sizes(chunks.size());
   std::transform(chunks.begin(), chunks.end(), sizes.begin(), sizesOf);
-  std::unique_ptr<Placement> placement = store_->place(sizes);
+  std::unique_ptr<MeshPlacement> placement = store_->place(sizes);
   Writing writing(stream, *placement);
   for (const PartPlace& part : placement->parts) {
     const Result<std::shared_ptr<const ImportedMemory>> imported = import(*part.block);

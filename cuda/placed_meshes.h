@@ -22,7 +22,7 @@ class PlacedMeshes {
   /// Enqueues copies of mesh parts in the stream. The caller must wait for the stream and then publish the result
   /// (MeshStore::publish). If an error is returned, no copy is running. Errors: those of Stream::copy. Throws
   /// std::bad_alloc.
-  Result<std::unique_ptr<Placement>> keep(Stream& stream, std::span<const PartSources> chunks);
+  Result<std::unique_ptr<MeshPlacement>> keep(Stream& stream, std::span<const PartSources> chunks);
   /// Releases all imports, also those whose blocks continue to exist: such an import would keep the memory of a lost
   /// device alive. Precondition: no placement is still being written.
   ~PlacedMeshes();

@@ -27,12 +27,12 @@ struct PartPlace {
 
 /// Parts that have memory but no content yet. If the object is destroyed while `writing` is true, it is unknown when
 /// the writing ends. So the memory is not reused as long as the store exists.
-class Placement {
+class MeshPlacement {
  public:
-  Placement() = default;
-  virtual ~Placement() = default;
-  Placement(const Placement&) = delete;
-  Placement& operator=(const Placement&) = delete;
+  MeshPlacement() = default;
+  virtual ~MeshPlacement() = default;
+  MeshPlacement(const MeshPlacement&) = delete;
+  MeshPlacement& operator=(const MeshPlacement&) = delete;
 
   std::vector<DeviceParts> chunks;  ///< the placed parts of each chunk; all null for a chunk that got no memory
   std::vector<PartPlace> parts;
@@ -50,11 +50,11 @@ class MeshStore {
   /// Returns true if the drawing device is lost. The store then allocates no more memory.
   virtual bool lost() const = 0;
   /// Allocates memory for parts. Throws std::bad_alloc.
-  virtual std::unique_ptr<Placement> place(std::span<const PartSizes> chunks) = 0;
+  virtual std::unique_ptr<MeshPlacement> place(std::span<const PartSizes> chunks) = 0;
   /// Makes the content of placed parts readable for the drawing device. Call after all content was written, and after
   /// waiting for the writes. After an error, the content of the placement's parts is on no device. Errors:
   /// out_of_memory, device_lost.
-  virtual Result<void> publish(Placement& placement) noexcept = 0;
+  virtual Result<void> publish(MeshPlacement& placement) noexcept = 0;
   /// Same as Backend::upload(), on the drawing device. If the drawing device is lost, the error is `unsupported`,
   /// because `device_lost` would mean the device that meshes.
   virtual Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) = 0;

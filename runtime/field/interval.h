@@ -7,16 +7,16 @@
 namespace sgm {
 
 /// A closed interval with finite ends (magnitudes are clamped to 1e37).
-struct Interval {
+struct FloatInterval {
   double lo = 0, hi = 0;
 };
 
 /// A box of positions, in units: it contains all positions that one position register (a place, program.h) may hold.
-struct PlaceBox {
-  Interval x, y, z;
+struct PositionBox {
+  FloatInterval x, y, z;
 };
 
-PlaceBox placeBox(const IntBox& box);
+PositionBox positionBox(const IntBox& box);
 
 /// Returns the relative error that ops.def states for the op.
 double statedError(Op op);
@@ -26,20 +26,20 @@ double statedError(Op op);
 double sizeSum(Op op, const uint32_t* params);
 
 /// Returns bounds of an op that reads a position. t: the operand of power_morph; ignored by other ops.
-Interval boundPosition(Op op, const uint32_t* params, const PlaceBox& box, Interval t);
+FloatInterval boundPosition(Op op, const uint32_t* params, const PositionBox& box, FloatInterval t);
 
 /// Returns bounds of an op on operands a, b, c. Does not support accumulating ops and warps.
-Interval boundOperands(Op op, const uint32_t* params, Interval a, Interval b, Interval c);
+FloatInterval boundOperands(Op op, const uint32_t* params, FloatInterval a, FloatInterval b, FloatInterval c);
 
 /// Returns bounds of the value at the end of a round union. nearest, sum: bounds of the union's two registers (the
 /// smallest operand, and the sum of the amounts of boundRoundShare()).
-Interval boundRoundEnd(const uint32_t* params, Interval nearest, Interval sum);
-Interval boundSumEnd(const uint32_t* params, Interval sum);
+FloatInterval boundRoundEnd(const uint32_t* params, FloatInterval nearest, FloatInterval sum);
+FloatInterval boundSumEnd(const uint32_t* params, FloatInterval sum);
 /// Returns bounds of the amount that one operand adds to the sum of a round union. d: bounds of the operand.
-Interval boundRoundShare(const uint32_t* params, Interval d);
+FloatInterval boundRoundShare(const uint32_t* params, FloatInterval d);
 /// boundRoundUnion() returns bounds of the round union of the field (a) and a smooth group (b; program.h) whose blend
 /// has the width k > 0; boundRoundCut() returns bounds of the field minus the group.
-Interval boundRoundUnion(Interval a, Interval b, double k);
-Interval boundRoundCut(Interval a, Interval b, double k);
+FloatInterval boundRoundUnion(FloatInterval a, FloatInterval b, double k);
+FloatInterval boundRoundCut(FloatInterval a, FloatInterval b, double k);
 
 }  // namespace sgm

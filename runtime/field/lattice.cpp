@@ -84,9 +84,9 @@ std::optional<size_t> latticePoints(const SampleLattice& lattice) {
   return static_cast<size_t>(points);
 }
 
-Interval boundLattice(const uint32_t* p, const PlaceBox& box) {
-  const std::array<Interval, 3> axes{box.x, box.y, box.z};
-  std::array<Interval, 3> range{};
+FloatInterval boundLattice(const uint32_t* p, const PositionBox& box) {
+  const std::array<FloatInterval, 3> axes{box.x, box.y, box.z};
+  std::array<FloatInterval, 3> range{};
   std::array<int64_t, 3> first{}, last{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
@@ -94,7 +94,7 @@ Interval boundLattice(const uint32_t* p, const PlaceBox& box) {
     first[a] = cellAt(p, axis, range[a].lo);
     last[a] = cellAt(p, axis, range[a].hi) + 1;
   }
-  Interval all{kFarAway, -kFarAway};
+  FloatInterval all{kFarAway, -kFarAway};
   for (int64_t z = first[2]; z <= last[2]; ++z) {
     for (int64_t y = first[1]; y <= last[1]; ++y) {
       for (int64_t x = first[0]; x <= last[0]; ++x) {

@@ -33,7 +33,7 @@ std::optional<size_t> latticePoints(const SampleLattice& lattice);
 
 /// boundLattice() returns bounds of the lattice op over a box of positions; referenceLattice() returns its value at a
 /// position in double precision. p: the op's parameter words.
-Interval boundLattice(const uint32_t* p, const PlaceBox& box);
+FloatInterval boundLattice(const uint32_t* p, const PositionBox& box);
 double referenceLattice(const uint32_t* p, double x, double y, double z);
 
 }  // namespace sgm

@@ -15,15 +15,15 @@ struct CentredBox {
   double hx, hy, hz;  // half extents
 };
 
-CentredBox centred(const PlaceBox& b) {
+CentredBox centred(const PositionBox& b) {
   return {(b.x.lo + b.x.hi) / 2, (b.y.lo + b.y.hi) / 2, (b.z.lo + b.z.hi) / 2,
           (b.x.hi - b.x.lo) / 2, (b.y.hi - b.y.lo) / 2, (b.z.hi - b.z.lo) / 2};
 }
 
 // Returns the exact range of squared distances from a ball's centre to the points of the box.
-Interval distance2(const uint32_t* p, const PlaceBox& b) {
-  auto axis = [](Interval i, double c) { return squared(offsets(i, c)); };
-  const Interval x = axis(b.x, wholeAt(p, 1)), y = axis(b.y, wholeAt(p, 2)), z = axis(b.z, wholeAt(p, 3));
+FloatInterval distance2(const uint32_t* p, const PositionBox& b) {
+  auto axis = [](FloatInterval i, double c) { return squared(offsets(i, c)); };
+  const FloatInterval x = axis(b.x, wholeAt(p, 1)), y = axis(b.y, wholeAt(p, 2)), z = axis(b.z, wholeAt(p, 3));
   return {x.lo + y.lo + z.lo, x.hi + y.hi + z.hi};
 }
 
@@ -33,15 +33,15 @@ constexpr double kNoiseSlope = 3.7501;
 
 // Bounds noise by its value at the box's middle, plus or minus the slope times the distance to the box's corners. The
 // bounds are tight only for small boxes.
-Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
-  constexpr Interval all{-1, 1};
+FloatInterval noiseBounds(const uint32_t* p, const PositionBox& box) {
+  constexpr FloatInterval all{-1, 1};
   double slope = 0, weight = realAt(p, 5) * kNoiseSlope;
   for (uint32_t k = 0; k < p[3]; ++k, weight *= 0.5) slope += weight / wholeAt(p, static_cast<int>(6 + 2 * k));
   double square = 0;
   Int3 middle;
-  const std::array<Interval, 3> axes{box.x, box.y, box.z};
+  const std::array<FloatInterval, 3> axes{box.x, box.y, box.z};
   for (int axis = 0; axis < 3; ++axis) {
-    const Interval side = axes[static_cast<size_t>(axis)];
+    const FloatInterval side = axes[static_cast<size_t>(axis)];
     // The noise lattice wraps around at the ends of int32. If an offset could leave that range, the noise can have any
     // value.
     const double anchor = wholeAt(p, axis);
@@ -100,7 +100,7 @@ double cylinderDistance(double radius, double half_height, const std::array<doub
 // convex set is convex, so it is nowhere below its tangent at the box's middle. It is also nowhere above the distance
 // from the point of the axis that is nearest to the middle. Neither bound differs from the value at the middle by more
 // than half the box's diagonal.
-Interval capsuleRange(const uint32_t* p, const CentredBox& c) {
+FloatInterval capsuleRange(const uint32_t* p, const CentredBox& c) {
   auto offset = [&](double at, int word) { return offsets({at, at}, wholeAt(p, word)).lo; };
   std::array<double, 3> d{offset(c.x, 1), offset(c.y, 2), offset(c.z, 3)};
   const std::array<double, 3> axis{realAt(p, 4), realAt(p, 5), realAt(p, 6)}, half{c.hx, c.hy, c.hz};
@@ -124,7 +124,7 @@ Interval capsuleRange(const uint32_t* p, const CentredBox& c) {
 
 // Bounds a primitive by its geometry, often tighter than its value at the middle plus or minus half the diagonal.
 // Returns an infinite range for primitives without such a bound.
-Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
+FloatInterval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
   switch (op) {
     case Op::box: {
       const LocalRange r = localRange(p, c);
@@ -158,13 +158,13 @@ Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
 // t increases, the exponent n grows, so that the norm falls; the radii change, too. The bounds treat both effects
 // separately: ||u||_max <= ||u||_n <= ||u||_2, each for the smaller and the larger radii at the ends of t. radius: half
 // the box's diagonal.
-Interval powerMorphRange(const uint32_t* p, const CentredBox& c, double radius, Interval t) {
-  const Interval s = clamped(t, 0, 1);
+FloatInterval powerMorphRange(const uint32_t* p, const CentredBox& c, double radius, FloatInterval t) {
+  const FloatInterval s = clamped(t, 0, 1);
   if (s.lo == s.hi) {
     const double v = referencePowerMorph(p, s.lo, c.x, c.y, c.z);
     return {v - radius, v + radius};
   }
-  std::array<Interval, 3> radii{};
+  std::array<FloatInterval, 3> radii{};
   for (int i = 0; i < 3; ++i) {
     const double a = realAt(p, 13 + i), b = realAt(p, 16 + i);
     const double r0 = (1 - s.lo) * a + s.lo * b, r1 = (1 - s.hi) * a + s.hi * b;
@@ -176,7 +176,7 @@ Interval powerMorphRange(const uint32_t* p, const CentredBox& c, double radius, 
   double low = 0, high2 = 0;
   for (int i = 0; i < 3; ++i) {
     const double q = std::abs(row(4 + 3 * i));
-    const Interval r = radii[static_cast<size_t>(i)];
+    const FloatInterval r = radii[static_cast<size_t>(i)];
     low = std::max(low, std::max(0.0, q - radius) / r.hi);
     const double u = (q + radius) / r.lo;
     high2 += u * u;
@@ -232,7 +232,7 @@ double sizeSum(Op op, const uint32_t* p) {
   }
 }
 
-Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t) {
+FloatInterval boundPosition(Op op, const uint32_t* p, const PositionBox& box, FloatInterval t) {
   switch (op) {
     case Op::noise:
       return noiseBounds(p, box);
@@ -241,19 +241,19 @@ Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t
     case Op::lattice:
       return boundLattice(p, box);
     case Op::coordinate: {
-      const Interval x = product(offsets(box.x, wholeAt(p, 1)), {realAt(p, 4), realAt(p, 4)});
-      const Interval y = product(offsets(box.y, wholeAt(p, 2)), {realAt(p, 5), realAt(p, 5)});
-      const Interval z = product(offsets(box.z, wholeAt(p, 3)), {realAt(p, 6), realAt(p, 6)});
-      const Interval v{x.lo + y.lo + z.lo, x.hi + y.hi + z.hi};
+      const FloatInterval x = product(offsets(box.x, wholeAt(p, 1)), {realAt(p, 4), realAt(p, 4)});
+      const FloatInterval y = product(offsets(box.y, wholeAt(p, 2)), {realAt(p, 5), realAt(p, 5)});
+      const FloatInterval z = product(offsets(box.z, wholeAt(p, 3)), {realAt(p, 6), realAt(p, 6)});
+      const FloatInterval v{x.lo + y.lo + z.lo, x.hi + y.hi + z.hi};
       return widened(v, errorOf(op) * (magnitude(x) + magnitude(y) + magnitude(z)));
     }
     case Op::blob: {
-      const Interval d2 = distance2(p, box);
+      const FloatInterval d2 = distance2(p, box);
       return kernelBounds({d2.lo * realAt(p, 4), d2.hi * realAt(p, 4)}, errorOf(op));
     }
     case Op::sphere: {
-      const Interval d2 = distance2(p, box);
-      const Interval d{std::sqrt(d2.lo) - realAt(p, 4), std::sqrt(d2.hi) - realAt(p, 4)};
+      const FloatInterval d2 = distance2(p, box);
+      const FloatInterval d{std::sqrt(d2.lo) - realAt(p, 4), std::sqrt(d2.hi) - realAt(p, 4)};
       return widened(d, errorOf(op) * (std::sqrt(d2.hi) + realAt(p, 4)));
     }
     default:
@@ -271,7 +271,7 @@ Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t
     const double reach = std::abs(realAt(p, 7)) * c.hx + std::abs(realAt(p, 8)) * c.hy + std::abs(realAt(p, 9)) * c.hz;
     return widened({v - reach, v + reach}, error);
   }
-  const Interval range = primitiveRange(op, p, c);
+  const FloatInterval range = primitiveRange(op, p, c);
   return widened({std::max(v - radius, range.lo), std::min(v + radius, range.hi)}, error);
 }
 

@@ -15,7 +15,7 @@ struct PrunedProgram {
   float initial = kFar;
   uint32_t initial_label = 0;
   float q_scale = 1;
-  Interval field;  ///< bounds of the field over the box, units
+  FloatInterval field;  ///< bounds of the field over the box, units
 
   explicit PrunedProgram(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : instrs(memory), groups(memory) {}
@@ -33,11 +33,11 @@ class PruneScratch {
   explicit PruneScratch(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : marks(memory), bounds(memory), reversed(memory) {}
   struct GroupBounds {
-    Interval value;
+    FloatInterval value;
     bool met, whole, live;
   };
   /// one per instruction: intermediate bounds, by which prune_kernel.inl decides whether to keep the instruction
-  std::pmr::vector<Interval> marks;
+  std::pmr::vector<FloatInterval> marks;
   std::pmr::vector<GroupBounds> bounds;
   std::pmr::vector<Instr> reversed;
 };

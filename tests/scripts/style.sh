@@ -52,6 +52,28 @@ complain "libm in code that feeds derived data: use base/math.h (std::sqrt, floo
     'runtime/base/*' 'runtime/asset/*' 'runtime/grammar/*' 'runtime/derive/*' 'runtime/field/*' 'runtime/mesh/*' 'runtime/backend/*' \
     ':!runtime/field/reference*')"
 
+# defined_twice: prints types that are defined in two files, with the same name in the same namespace. Each library would
+# keep only one of their constructors for both types.
+defined_twice() {
+  tracked 'runtime/*.h' 'runtime/*.cpp' 'cuda/*.h' 'cuda/*.cpp' | xargs -r -d '\n' awk '
+    FNR == 1 { depth = 0 }
+    /^(inline )?namespace.*\{/ && !/\}/ {
+      name = $0
+      sub(/^(inline )?namespace */, "", name)
+      sub(/ *\{.*/, "", name)
+      within[++depth] = name == "" ? FILENAME : name
+    }
+    /^\} *\/\/ namespace/ { --depth }
+    match($0, /^(struct|class|union|enum|enum class) [A-Za-z0-9_]+( final)?( : [^;]*)? *\{/) {
+      name = $0
+      sub(/^(struct|class|union|enum class|enum) /, "", name)
+      sub(/[^A-Za-z0-9_].*/, "", name)
+      for (i = depth; i > 0; --i) name = within[i] "::" name
+      print name, FILENAME
+    }' | sort -u | awk '$1 == last { print $1 ": " file " and " $2 } { last = $1; file = $2 }'
+}
+complain "types with one name in one namespace: rename one" "$(defined_twice)"
+
 # broken_links: prints links in Markdown pages to files that do not exist in the tree.
 broken_links() {
   local page target

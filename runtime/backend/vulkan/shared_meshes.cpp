@@ -7,7 +7,7 @@
 namespace sgm::vulkan {
 namespace {
 
-struct Placed final : Placement {
+struct Placed final : MeshPlacement {
   ~Placed() override {
     if (writing) DeviceMeshes::abandon(placed);
   }
@@ -33,7 +33,7 @@ class SharedMeshes final : public MeshStore, public std::enable_shared_from_this
 
   bool lost() const override { return queue_->lost(); }
 
-  std::unique_ptr<Placement> place(std::span<const PartSizes> chunks) override {
+  std::unique_ptr<MeshPlacement> place(std::span<const PartSizes> chunks) override {
     auto placement = std::make_unique<Placed>();
     if (lost()) {
       placement->chunks.resize(chunks.size());
@@ -48,7 +48,7 @@ class SharedMeshes final : public MeshStore, public std::enable_shared_from_this
     return placement;
   }
 
-  Result<void> publish(Placement& base) noexcept override {
+  Result<void> publish(MeshPlacement& base) noexcept override {
     auto& placement = static_cast<Placed&>(base);
     placement.writing = false;
     placement.held.clear();

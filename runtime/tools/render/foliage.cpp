@@ -39,13 +39,13 @@ bool grows(const Kind& kind, uint32_t material, const RenderScene& scene) {
   return grows(kind, materialAt(scene, material));
 }
 
-bool isNear(const Kind& kind, const RenderVertex& corner, const Frame& frame) {
+bool isNear(const Kind& kind, const RenderVertex& corner, const RenderFrame& frame) {
   return corner.texture == glm::vec2(0) && glm::distance(corner.position, glm::vec3(frame.eye)) <= kind.far;
 }
 
 /// Noise that groups blades and leaves, with gaps between the groups. For a lawn: height of the blades as a share of
 /// kTallest, 0.25..1. For leaves: -1..1, negative in the gaps between sprigs.
-float growthAt(const Kind& kind, glm::vec3 position, const Frame& frame) {
+float growthAt(const Kind& kind, glm::vec3 position, const RenderFrame& frame) {
   const float finest = frame.eye.w * glm::distance(position, glm::vec3(frame.eye));
   const float hollow = puffHollows(position + glm::vec3(frame.pattern_offset), 0.95f, finest);
   return kind.pattern == SurfacePattern::grassy ? std::clamp(1.1f - 0.9f * hollow, 0.25f, 1.0f)
@@ -76,7 +76,7 @@ class Sower {
   using vec3 = glm::vec3;
 
  public:
-  Sower(const RenderScene& scene, const Frame& frame) : scene_(scene), frame_(frame) {}
+  Sower(const RenderScene& scene, const RenderFrame& frame) : scene_(scene), frame_(frame) {}
 
   /// Adds the blades or leaves that grow on a triangle to `sprouts`. grown: result of grownOn() for the triangle: on
   /// which of the triangle's two materials the foliage grows.
@@ -182,18 +182,18 @@ class Sower {
   }
 
   const RenderScene& scene_;
-  const Frame& frame_;
+  const RenderFrame& frame_;
 };
 
 /// On which of the triangle's two materials this kind of foliage grows: 1 the first, 2 the second, 3 both, 0 neither.
-int grownOn(const Kind& kind, const RenderScene& scene, const Frame& frame, const RenderVertex& one) {
+int grownOn(const Kind& kind, const RenderScene& scene, const RenderFrame& frame, const RenderVertex& one) {
   if (!isNear(kind, one, frame)) return 0;
   return (grows(kind, one.material, scene) ? 1 : 0) + (grows(kind, one.second, scene) ? 2 : 0);
 }
 
 }  // namespace
 
-Foliage foliageOf(const RenderScene& scene, const Frame& frame) {
+Foliage foliageOf(const RenderScene& scene, const RenderFrame& frame) {
   Foliage foliage;
   foliage.constants.view_projection = frame.view_projection;
   foliage.constants.eye = frame.eye;
@@ -224,19 +224,20 @@ Foliage foliageOf(const RenderScene& scene, const Frame& frame) {
 
 bool hasLeaves(const RenderMaterial& material) { return grows(kLeaves, material); }
 
-bool isCrown(const RenderScene& scene, const Frame& frame, const std::array<const RenderVertex*, 3>& corners) {
+bool isCrown(const RenderScene& scene, const RenderFrame& frame, const std::array<const RenderVertex*, 3>& corners) {
   const RenderVertex& one = *corners[0];
   const auto isAlone = [](const RenderVertex* corner) { return corner->share == 0; };
   return grows(kLeaves, one.material, scene) && isNear(kLeaves, one, frame) &&
          (grows(kLeaves, one.second, scene) || std::ranges::all_of(corners, isAlone));
 }
 
-bool isCrownGap(const Frame& frame, glm::vec3 position, float facing) {
+bool isCrownGap(const RenderFrame& frame, glm::vec3 position, float facing) {
   const float rim = 1 - glm::smoothstep(0.05f, 0.6f, facing);
   return growthAt(kLeaves, position, frame) < glm::mix(kLeastGrowth, 0.1f, rim);
 }
 
-std::vector<uint32_t> withoutCrowns(const RenderScene& scene, const Frame& frame, std::span<const uint32_t> indices) {
+std::vector<uint32_t> withoutCrowns(const RenderScene& scene, const RenderFrame& frame,
+                                    std::span<const uint32_t> indices) {
   std::vector<uint32_t> rest;
   rest.reserve(indices.size());
   for (size_t i = 0; i + 2 < indices.size(); i += 3) {

@@ -49,20 +49,21 @@ struct Foliage {
 
 /// Makes the blades and leaves for a picture, on surfaces near enough to show them. Distant blades and leaves are fewer
 /// and larger. Contract: the scene is checked, and frame belongs to it. May throw std::bad_alloc.
-Foliage foliageOf(const RenderScene& scene, const Frame& frame);
+Foliage foliageOf(const RenderScene& scene, const RenderFrame& frame);
 
 /// Whether leaves are drawn on surfaces of this material.
 bool hasLeaves(const RenderMaterial& material);
 
 /// Whether the triangle with these corners belongs to a tree crown: its leaves are drawn, but not the triangle itself.
-bool isCrown(const RenderScene& scene, const Frame& frame, const std::array<const RenderVertex*, 3>& corners);
+bool isCrown(const RenderScene& scene, const RenderFrame& frame, const std::array<const RenderVertex*, 3>& corners);
 
 /// Whether a point on a crown's surface is a gap between sprigs. facing: cosine between the surface normal and the
 /// direction to the eye.
-bool isCrownGap(const Frame& frame, glm::vec3 position, float facing);
+bool isCrownGap(const RenderFrame& frame, glm::vec3 position, float facing);
 
 /// Returns `indices` without the triangles of tree crowns: only a crown's leaves and the things behind it are visible.
 /// Contract: the scene is checked, and frame belongs to it. May throw std::bad_alloc.
-std::vector<uint32_t> withoutCrowns(const RenderScene& scene, const Frame& frame, std::span<const uint32_t> indices);
+std::vector<uint32_t> withoutCrowns(const RenderScene& scene, const RenderFrame& frame,
+                                    std::span<const uint32_t> indices);
 
 }  // namespace sgm

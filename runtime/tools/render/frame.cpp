@@ -39,7 +39,7 @@ glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
   return m;
 }
 
-constexpr float kMeadow = 1e6f;   // value of Frame::land.y for a meadow, as in shaders/render/frame.glsl
+constexpr float kMeadow = 1e6f;   // value of RenderFrame::land.y for a meadow, as in shaders/render/frame.glsl
 constexpr float kBeyond = 0.85f;  // the clouds that the shader adds to the sky begin at this share of the distance to
                                   // the farthest cloud in the mesh
 
@@ -80,11 +80,11 @@ CameraAxes axesOf(const RenderCamera& camera) {
   return axes;
 }
 
-Frame frameOf(const RenderScene& scene) {
+RenderFrame frameOf(const RenderScene& scene) {
   const RenderCamera& camera = scene.camera;
   const CameraAxes axes = axesOf(camera);
   const float samples = static_cast<float>(camera.height * scene.supersample);
-  Frame frame{};
+  RenderFrame frame{};
   frame.view_projection = viewProjection(camera, axes);
   frame.eye = glm::vec4(camera.position, 2 * axes.half_height / samples);
   frame.pattern_offset =
@@ -110,7 +110,7 @@ Frame frameOf(const RenderScene& scene) {
   return frame;
 }
 
-void findLand(const RenderScene& scene, Frame& frame) {
+void findLand(const RenderScene& scene, RenderFrame& frame) {
   if (scene.background != Background::sky) return;
   std::optional<Land> land = landAround(scene);
   if (!land) land = landUnderClouds(scene);

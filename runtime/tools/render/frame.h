@@ -10,7 +10,7 @@
 
 namespace sgm {
 
-struct Frame {
+struct RenderFrame {
   glm::mat4 view_projection;
   glm::vec4 eye;
   glm::vec4 pattern_offset;
@@ -24,7 +24,7 @@ struct Frame {
   glm::uvec4 counts;
   glm::vec4 land;
 };
-static_assert(sizeof(Frame) == 64 + 6 * 16 + 2 * 16 * (kMaxLamps + 1) + 48);
+static_assert(sizeof(RenderFrame) == 64 + 6 * 16 + 2 * 16 * (kMaxLamps + 1) + 48);
 
 struct FrameMaterial {
   glm::vec4 colour_roughness;
@@ -45,10 +45,11 @@ struct CameraAxes {
 /// Axes of a camera that checkCamera() accepts.
 CameraAxes axesOf(const RenderCamera& camera);
 
-/// Frame of a scene that has been checked. Frame::land stays empty until findLand() sets it.
-Frame frameOf(const RenderScene& scene);
-/// Sets Frame::land: the land that is drawn around the world, derived from the whole mesh. May throw std::bad_alloc.
-void findLand(const RenderScene& scene, Frame& frame);
+/// Returns the frame of a scene that has been checked. RenderFrame::land stays empty until findLand() sets it.
+RenderFrame frameOf(const RenderScene& scene);
+/// Sets RenderFrame::land: the land that is drawn around the world, derived from the whole mesh. May throw
+/// std::bad_alloc.
+void findLand(const RenderScene& scene, RenderFrame& frame);
 std::vector<FrameMaterial> frameMaterials(const RenderScene& scene);
 
 }  // namespace sgm

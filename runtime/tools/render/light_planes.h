@@ -55,6 +55,6 @@ inline constexpr uint32_t kSoftPixels = 2;
 /// Computes the light of a picture by tracing rays over the scene's mesh. The same scene gives the same planes.
 /// Contract: the scene is checked, and frame belongs to it. Errors: out_of_memory; cancelled if scene.go_on returns
 /// false.
-Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, JobSystem& jobs);
+Result<LightPlanes> traceLight(const RenderScene& scene, const RenderFrame& frame, JobSystem& jobs);
 
 }  // namespace sgm

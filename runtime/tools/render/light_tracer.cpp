@@ -168,7 +168,7 @@ class LightTracer {
 
 }  // namespace
 
-Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, JobSystem& jobs) {
+Result<LightPlanes> traceLight(const RenderScene& scene, const RenderFrame& frame, JobSystem& jobs) {
   try {
     const SceneParts parts = partsOf(scene);
     Result<RayCaster> mesh = RayCaster::over(scene.vertices, parts.bodies);

@@ -9,7 +9,7 @@
 namespace sgm {
 
 /// The distorted normal of a pane. Old panes are wavy and each is slightly tilted, so each reflects another part of the
-/// sky. p: position plus Frame::pattern_offset, metres.
+/// sky. p: position plus RenderFrame::pattern_offset, metres.
 inline vec3 paneNormal(vec3 normal, vec3 p) {
   // A random tilt for each sash (the frame of one pane).
   const auto lot = [&](float by) {
@@ -23,7 +23,7 @@ inline vec3 paneNormal(vec3 normal, vec3 p) {
 }
 
 /// The normal of open water with wind ripples of several wavelengths and directions. p: position plus
-/// Frame::pattern_offset, metres.
+/// RenderFrame::pattern_offset, metres.
 inline vec3 rippledNormal(vec3 normal, vec3 p) {
   constexpr int kWaves = 6;
   const float gust = 0.6f + 0.4f * std::sin(0.31f * p.x + 1.7f * std::sin(0.23f * p.z)) * std::sin(0.27f * p.z);

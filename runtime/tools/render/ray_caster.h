@@ -41,7 +41,7 @@ class RayCaster {
   /// Like cast(), but ignores hits on the back of a triangle: a viewer in the void does not see them.
   std::optional<RayHit> castFronts(glm::vec3 from, glm::vec3 direction, float max_distance) const;
   /// Makes isFree() let light pass through materials that transmit it. lets: an element for each material; the caller
-  /// must keep the array alive. offset: Frame::pattern_offset, metres, for the gaps between leaves.
+  /// must keep the array alive. offset: RenderFrame::pattern_offset, metres, for the gaps between leaves.
   void loosen(std::span<const LetsLight> lets, glm::vec3 offset);
   /// Whether light from the end of the ray reaches its start. Only triangles whose front faces the light block it, and
   /// only if their material does not transmit light (see loosen()).

@@ -136,7 +136,7 @@ Result<Image> Renderer::draw(const RenderScene& scene) const {
   const DrawingTable& calls = device_->calls();
   VulkanScope scope(*device_);
 
-  Frame frame = frameOf(scene);
+  RenderFrame frame = frameOf(scene);
   findLand(scene, frame);
   const Result<LightPlanes> light = traceLight(scene, frame, *jobs_);
   if (!light) return light.error();
@@ -153,7 +153,7 @@ Result<Image> Renderer::draw(const RenderScene& scene) const {
   if (!ground) return ground.error();
   auto sprouts = upload(scope, std::span<const Sprout>(foliage.sprouts), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
   if (!sprouts) return sprouts.error();
-  auto frame_buffer = upload(scope, std::span<const Frame>(&frame, 1), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+  auto frame_buffer = upload(scope, std::span<const RenderFrame>(&frame, 1), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
   if (!frame_buffer) return frame_buffer.error();
   auto material_buffer = upload(scope, std::span<const FrameMaterial>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   if (!material_buffer) return material_buffer.error();

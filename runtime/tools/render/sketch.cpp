@@ -75,7 +75,7 @@ class Sketch {
   }
 
   const RenderScene& scene_;
-  const Frame frame_;
+  const RenderFrame frame_;
   const RayCaster& mesh_;
   const vec3 to_sun_;
   const bool sky_;

@@ -37,11 +37,11 @@ inline vec3 behind(const MetSurface& pane, vec3 direction) { return pane.positio
 /// The mesh, the materials and the camera of a picture, for ray tracing. Keeps references to its arguments.
 class TracedScene {
  public:
-  TracedScene(const RenderScene& scene, const Frame& frame, const RayCaster& mesh)
+  TracedScene(const RenderScene& scene, const RenderFrame& frame, const RayCaster& mesh)
       : scene_(scene), frame_(frame), mesh_(mesh) {}
 
   const RenderScene& scene() const { return scene_; }
-  const Frame& frame() const { return frame_; }
+  const RenderFrame& frame() const { return frame_; }
   const RayCaster& mesh() const { return mesh_; }
 
   /// Direction from the eye through the first sample of pixel (x, y), shifted by `off` pixels.
@@ -69,7 +69,7 @@ class TracedScene {
   bool isGap(const MetSurface& place, vec3 direction) const;
 
   const RenderScene& scene_;
-  const Frame& frame_;
+  const RenderFrame& frame_;
   const RayCaster& mesh_;
 };
 

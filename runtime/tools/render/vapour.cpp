@@ -77,7 +77,7 @@ SceneParts partsOf(const RenderScene& scene) {
   return parts;
 }
 
-Vapour::Vapour(const RenderScene& scene, const Frame& frame, VapourDensity density)
+Vapour::Vapour(const RenderScene& scene, const RenderFrame& frame, VapourDensity density)
     : density_(std::move(density)),
       to_sun_(frame.sun),
       sun_light_(whitened(sunLight())),
@@ -87,13 +87,13 @@ Vapour::Vapour(const RenderScene& scene, const Frame& frame, VapourDensity densi
       sample_angle_(frame.eye.w * static_cast<float>(frame.size.z)) {
   for (const RenderMaterial& material : scene.materials)
     stuffs_.push_back({material.colour, material.roughness * material.roughness, std::min(1.0f, material.relief)});
-  const Lattice& fine = density_.lattice();
+  const VapourLattice& fine = density_.lattice();
   light_lattice_.corner = fine.corner;
   light_lattice_.spacing = fine.spacing * kCoarser;
   light_lattice_.size = (fine.size + kCoarser - 2) / kCoarser + 1;
 }
 
-Result<Vapour> Vapour::over(const RenderScene& scene, const Frame& frame, std::span<const uint32_t> clouds,
+Result<Vapour> Vapour::over(const RenderScene& scene, const RenderFrame& frame, std::span<const uint32_t> clouds,
                             JobSystem& jobs) {
   try {
     const Result<RayCaster> outline = RayCaster::over(scene.vertices, clouds, Gaps::closed);

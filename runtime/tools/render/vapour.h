@@ -33,7 +33,7 @@ struct VapourLight {
 class Vapour {
  public:
   /// Contract: `clouds`, indices of the clouds' triangles, is not empty. Error: out_of_memory.
-  static Result<Vapour> over(const RenderScene& scene, const Frame& frame, std::span<const uint32_t> clouds,
+  static Result<Vapour> over(const RenderScene& scene, const RenderFrame& frame, std::span<const uint32_t> clouds,
                              JobSystem& jobs);
 
   /// Marches along a ray of unit direction from the eye up to the distance `end`, in metres. x, y: the pixel, which
@@ -52,7 +52,7 @@ class Vapour {
     float density, puffs;
   };
 
-  Vapour(const RenderScene& scene, const Frame& frame, VapourDensity density);
+  Vapour(const RenderScene& scene, const RenderFrame& frame, VapourDensity density);
   void light(JobSystem& jobs);
   const Stuff& stuffAt(glm::vec3 place) const;
   float densityAt(glm::vec3 place, float footprint) const;
@@ -61,7 +61,7 @@ class Vapour {
   glm::vec3 sourceAt(glm::vec3 place, float cosine, float footprint) const;
 
   VapourDensity density_;
-  Lattice light_lattice_;
+  VapourLattice light_lattice_;
   /// For each point of the light lattice: optical depth towards the sun, then the mean share of light that arrives from
   /// above, from below and from all sides.
   std::vector<glm::vec4> lit_;

@@ -32,12 +32,12 @@ float areaOf(const RayCaster& mesh) {
   return static_cast<float>(sum);
 }
 
-Lattice latticeOver(const RayCaster& outline) {
+VapourLattice latticeOver(const RayCaster& outline) {
   const glm::vec3 extent = outline.hi() - outline.lo();
   // If memory allows, cells are as fine as the mesh, assuming that a triangle covers half of a cell's face.
   const float mean = std::sqrt(2 * areaOf(outline) / static_cast<float>(outline.triangleCount()));
   const double volume = double{extent.x} * static_cast<double>(extent.y) * static_cast<double>(extent.z);
-  Lattice lattice;
+  VapourLattice lattice;
   lattice.spacing = std::max({0.8f * mean, static_cast<float>(std::cbrt(volume / kMaxPoints)),
                               std::max({extent.x, extent.y, extent.z}) / 2000, 1e-3f});
   const auto sizeAt = [&] { return glm::ivec3(glm::ceil(extent / lattice.spacing)) + 2 * kMargin + 1; };

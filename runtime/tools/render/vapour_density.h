@@ -14,7 +14,7 @@
 namespace sgm {
 
 /// A regular lattice of points with equal spacing on all axes.
-struct Lattice {
+struct VapourLattice {
   glm::vec3 corner{0};  ///< position of the first point, metres from the scene's origin
   float spacing = 1;    ///< distance in metres between neighbouring points along each axis
   glm::ivec3 size{0};   ///< number of points along each axis, at least 2
@@ -32,7 +32,7 @@ class VapourDensity {
   /// outline: ray caster over the triangles of all clouds, at least one triangle. May throw std::bad_alloc.
   VapourDensity(const RayCaster& outline, JobSystem& jobs);
 
-  const Lattice& lattice() const { return lattice_; }
+  const VapourLattice& lattice() const { return lattice_; }
   /// Mean free path of light at full density, in metres.
   float meanFreePath() const { return mean_free_path_; }
   /// The smoothed share of the surroundings of `place` that is inside the mesh, 0..1; about 0.5 at the mesh's surface.
@@ -63,7 +63,7 @@ class VapourDensity {
   void markBricks(JobSystem& jobs);
   bool hasOutline(glm::ivec3 brick) const;
 
-  Lattice lattice_;
+  VapourLattice lattice_;
   std::vector<uint8_t> outline_;  ///< for each lattice point: smoothed share that is inside the mesh, in 255ths
   std::vector<uint16_t> bricks_;  ///< for each brick: index of its material, or kEmpty if it has no density
   glm::ivec3 brick_count_{0};

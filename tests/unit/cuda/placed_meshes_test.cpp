@@ -139,7 +139,7 @@ TEST_CASE("parts are where they were placed, and there once they are published",
     const auto placed = take(cuda::PlacedMeshes::create(*device, gpu.store));
     CHECK(gpu.store->bytes() == 0);
     const BatchOf batch(*stream, 20, random);
-    std::unique_ptr<Placement> placement = take(placed->keep(*stream, batch.sources));
+    std::unique_ptr<MeshPlacement> placement = take(placed->keep(*stream, batch.sources));
     REQUIRE(placement->parts.size() == 20);
     for (const DeviceParts& parts : placement->chunks) CHECK(!there(parts));
     REQUIRE(stream->wait());
@@ -166,7 +166,7 @@ TEST_CASE("parts that could not be published are not there, and harm nobody", "[
   const BatchOf batch(*stream, 3, random);
   for (const char* call : {"vkBeginCommandBuffer", "vkEndCommandBuffer", "vkQueueSubmit", "", "vkQueueSubmit"}) {
     CAPTURE(call);
-    std::unique_ptr<Placement> placement = take(placed->keep(*stream, batch.sources));
+    std::unique_ptr<MeshPlacement> placement = take(placed->keep(*stream, batch.sources));
     REQUIRE(stream->wait());
     gpu.faults.arm(call, *call ? 1 : 0, VK_ERROR_OUT_OF_HOST_MEMORY);
     CHECK(static_cast<bool>(gpu.store->publish(*placement)) == (*call == '\0'));
@@ -186,7 +186,7 @@ TEST_CASE("where the device that draws is lost nothing is placed on it, and CUDA
   const std::unique_ptr<cuda::Stream> stream = take(device->makeStream());
   const auto placed = take(cuda::PlacedMeshes::create(*device, gpu.store));
   const BatchOf batch(*stream, 3, random);
-  std::unique_ptr<Placement> placement = take(placed->keep(*stream, batch.sources));
+  std::unique_ptr<MeshPlacement> placement = take(placed->keep(*stream, batch.sources));
   REQUIRE(stream->wait());
   gpu.faults.arm("vkQueueSubmit", 1, VK_ERROR_DEVICE_LOST);
   CHECK(!gpu.store->publish(*placement));
@@ -234,11 +234,11 @@ TEST_CASE("memory that may be written to still is nobody else's before the end",
     const std::unique_ptr<cuda::Stream> stream = take(device->makeStream());
     const auto placed = take(cuda::PlacedMeshes::create(*device, gpu.store));
     const BatchOf batch(*stream, 2, random);
-    std::unique_ptr<Placement> left = take(placed->keep(*stream, batch.sources));
+    std::unique_ptr<MeshPlacement> left = take(placed->keep(*stream, batch.sources));
     const std::vector<PartPlace> places = left->parts;
     left.reset();
     CHECK(gpu.store->bytes() > 0);
-    const std::unique_ptr<Placement> next = take(placed->keep(*stream, batch.sources));
+    const std::unique_ptr<MeshPlacement> next = take(placed->keep(*stream, batch.sources));
     for (const PartPlace& old : places) {
       for (const PartPlace& now : next->parts) CHECK((old.block != now.block || old.vertices != now.vertices));
     }
@@ -253,13 +253,13 @@ TEST_CASE("a device opened after a loss imports the memory anew", "[cuda]") {
   if (!vulkan::haveDevice()) return;
   std::mt19937 random(13);
   OneGpu gpu;
-  std::unique_ptr<Placement> before;
+  std::unique_ptr<MeshPlacement> before;
   for (int round = 0; round < 3; ++round) {
     const std::unique_ptr<cuda::Device> device = gpu.openCuda();
     const std::unique_ptr<cuda::Stream> stream = take(device->makeStream());
     const auto placed = take(cuda::PlacedMeshes::create(*device, gpu.store));
     const BatchOf batch(*stream, 4, random);
-    std::unique_ptr<Placement> placement = take(placed->keep(*stream, batch.sources));
+    std::unique_ptr<MeshPlacement> placement = take(placed->keep(*stream, batch.sources));
     REQUIRE(stream->wait());
     REQUIRE(gpu.store->publish(*placement));
     for (const PartPlace& place : placement->parts) CHECK(batch.arrived(place));
@@ -285,12 +285,12 @@ TEST_CASE("two devices may write to one block, each to what was placed for it", 
     const auto after = take(cuda::PlacedMeshes::create(*anew, gpu.store));
     const BatchOf one(*first, 3, random), other(*second, 3, random);
     // The second device's transfer begins before the first device's has ended.
-    std::unique_ptr<Placement> a = take(before->keep(*first, one.sources));
-    std::unique_ptr<Placement> b = take(after->keep(*second, other.sources));
-    std::unique_ptr<Placement> c = take(before->keep(*first, one.sources));
+    std::unique_ptr<MeshPlacement> a = take(before->keep(*first, one.sources));
+    std::unique_ptr<MeshPlacement> b = take(after->keep(*second, other.sources));
+    std::unique_ptr<MeshPlacement> c = take(before->keep(*first, one.sources));
     REQUIRE(second->wait());
     REQUIRE(first->wait());
-    for (Placement* placement : {a.get(), b.get(), c.get()}) REQUIRE(gpu.store->publish(*placement));
+    for (MeshPlacement* placement : {a.get(), b.get(), c.get()}) REQUIRE(gpu.store->publish(*placement));
     for (const PartPlace& place : a->parts) CHECK(one.arrived(place));
     for (const PartPlace& place : b->parts) CHECK(other.arrived(place));
     for (const PartPlace& place : c->parts) CHECK(one.arrived(place));
@@ -325,7 +325,7 @@ TEST_CASE("where a block cannot be imported its chunks have no room; at the begi
   large[0] = batch.sources[0];
   large[1][0] = {batch.sources[1][0].vertices, batch.sources[1][0].indices, uint32_t{80} << 20 >> 4, 3};
   gpu.faults.arm("vkGetMemoryFdKHR", 1, VK_ERROR_TOO_MANY_OBJECTS);
-  const std::unique_ptr<Placement> placement = take(placed->keep(*stream, large));
+  const std::unique_ptr<MeshPlacement> placement = take(placed->keep(*stream, large));
   gpu.faults.disarm();
   CHECK(placement->chunks[0][0] != nullptr);
   CHECK(placement->chunks[1][0] == nullptr);

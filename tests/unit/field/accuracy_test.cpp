@@ -31,16 +31,16 @@ double referenceOf(const ProgramView& program, const ProgramGroup& g, uint32_t c
 
 // Bounds of the float value at one point, for a program with one group. They are computed from the reference values of
 // the leaves, and from the error that ops.def states for each operation above the leaves.
-Interval boundsAt(const ProgramView& program, Int3 p) {
+FloatInterval boundsAt(const ProgramView& program, Int3 p) {
   const ProgramGroup& g = program.groups[0];
-  const PlaceBox here = placeBox({p, p});
-  std::array<Interval, kMaxRegisters> r{};
+  const PositionBox here = positionBox({p, p});
+  std::array<FloatInterval, kMaxRegisters> r{};
   for (uint32_t i = 0; i < g.count; ++i) {
     const Instr& in = program.instrs[g.first + i];
     const uint32_t* params = program.params.data() + in.params;
-    const Interval a = r[in.a], b = r[in.b], c = r[in.c];
-    Interval& out = r[in.dst];
-    auto accumulate = [&](Interval share) {
+    const FloatInterval a = r[in.a], b = r[in.b], c = r[in.c];
+    FloatInterval& out = r[in.dst];
+    auto accumulate = [&](FloatInterval share) {
       r[in.b] = {(b.lo + share.lo) * (1 - 1e-6), (b.hi + share.hi) * (1 + 1e-6)};
     };
     switch (in.op) {
@@ -100,7 +100,7 @@ Interval boundsAt(const ProgramView& program, Int3 p) {
         break;
     }
   }
-  const Interval result = r[g.result];
+  const FloatInterval result = r[g.result];
   return {std::min(result.lo, double{kFar}), std::min(result.hi, double{kFar})};
 }
 
@@ -122,7 +122,7 @@ TEST_CASE("every op is as close to the double-precision reference as its operand
       for (size_t i = 0; i < points.x.size(); ++i) {
         const Int3 p{points.x[i], points.y[i], points.z[i]};
         const double v = double{e.value[i]}, expected = referenceField(program.view(), p);
-        const Interval bounds = boundsAt(program.view(), p);
+        const FloatInterval bounds = boundsAt(program.view(), p);
         const double slack = 1e-12 * std::abs(expected);
         const bool reference_in = expected >= bounds.lo - slack && expected <= bounds.hi + slack;
         far += !(v >= bounds.lo - 1e-30 && v <= bounds.hi + 1e-30) || !reference_in;
@@ -243,7 +243,7 @@ TEST_CASE("no op's float error is more than the relative error that ops.def stat
       const Evaluated e = evaluate(scalarKernels(), program.view(), points.points());
       for (size_t i = 0; i < points.x.size(); ++i) {
         const Int3 p{points.x[i], points.y[i], points.z[i]};
-        const Interval bounds = boundsAt(program.view(), p);
+        const FloatInterval bounds = boundsAt(program.view(), p);
         const double expected = referenceField(program.view(), p), off = std::abs(double{e.value[i]} - expected);
         ++compared;
         // `half`, half the width of the bounds, is the stated relative error times the largest magnitude of the inputs.
