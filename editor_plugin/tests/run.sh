@@ -73,8 +73,8 @@ judge() {
 
 run_one() {
   local name=$1 kind=${1%%/*} project log status=0 resolution command
-  # The software renderer compiles shaders twice as fast without optimising them, which also draws more slowly. So tests
-  # that draw few pictures ask for this.
+  # The software renderer compiles shaders in less time if it does not optimise them, but then it draws more slowly. So
+  # only tests that draw few pictures ask for this.
   local fast_compiler=(env GALLIVM_PERF=nopt)
   [[ -e $tests/$name.gd ]] || die "there is no test $name"
   project=$(project_of "${name//\//_}")
@@ -86,8 +86,8 @@ run_one() {
       # device needs long for each pixel.
       resolution=640x360
       [[ $name != */closed ]] || { resolution=1280x720 && fast_compiler=(); }
-      command=(${fast_compiler[@]+"${fast_compiler[@]}"} xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution $resolution
-        --path "$project" --script "tests/$name.gd")
+      command=(${fast_compiler[@]+"${fast_compiler[@]}"} xvfb-run -a -s "-screen 0 1600x900x24" "$godot"
+        --rendering-driver vulkan --resolution $resolution --path "$project" --script "tests/$name.gd")
       ;;
     pictures) command=(xvfb-run -a -s "-screen 0 1920x1200x24" "$godot" --rendering-driver vulkan --resolution 1920x1080
       --path "$project" --script "tests/$name.gd") ;;
@@ -101,8 +101,8 @@ run_one() {
       cp -a "$tests/lib/driver" "$project/addons/sgm_test"
       sed -i "s#^enabled=PackedStringArray(#&\"res://addons/sgm_test/plugin.cfg\", #" "$project/project.godot"
       export SGM_EDITOR_TEST="res://tests/$name.gd"
-      command=("${fast_compiler[@]}" xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution 1600x900 --editor
-        --path "$project")
+      command=("${fast_compiler[@]}" xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan
+        --resolution 1600x900 --editor --path "$project")
       ;;
     *) die "tests lie in headless, rendered, opengl, editor and pictures, not in '$kind'" ;;
   esac

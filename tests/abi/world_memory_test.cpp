@@ -181,7 +181,7 @@ Outcome trouble(Failing& failing, bool by_distance, Begin begin, End end, Troubl
 /// once with permanent ones.
 template <class Run>
 void everLater(Run run) {
-  for (uint32_t seed = 1; seed <= sgm::rounds(2); ++seed) {
+  for (uint32_t seed = 1; seed <= 2 * sgm::rounds(1); ++seed) {
     std::mt19937 random(seed);
     const bool by_distance = seed % 2 == 0;
     const Outcome expected = run(by_distance, INT64_MAX / 4, 0).first;
