@@ -24,24 +24,32 @@ caves branchwork 100 0
 caves lake 100 16
 caves table4/cui 100 64
 
-# A passage that is far deeper than wide must be a single void, although the bores that form it do not reach each other.
-# deep PASSAGE VOLUME CELL: cuts out the passage, and ignores voids of less than VOLUME.
-deep() {
-  cat >deep.sgm <<END
+# single PASSAGE VOLUME CELL: tests that a passage, cut out of rock, is a single void, ignoring those of less than VOLUME.
+single() {
+  cat >single.sgm <<END
 sgm 1;
 import "std/karst.sgm" as karst;
-domain finite box(160m, 450m, 160m) solid;
+domain finite box(900m, 450m, 400m) solid;
 rule Start { cut karst.$1; }
 start Start;
 expect components(air above $2) == 1;
 END
-  expect 0 "$SGM" check --expect deep.sgm --cell "$3" --max-chunks 1000000
-  out_has 'deep.sgm: ok, its expectation holds'
+  expect 0 "$SGM" check --expect single.sgm --cell "$3" --max-chunks 10000000
+  out_has 'single.sgm: ok, its expectation holds'
 }
-deep 'Canyon((-25m, 0m, 0m), (25m, -2m, 0m), 2m, 20m)' 1m3 0.2
-deep 'Keyhole((-25m, 0m, 0m), (25m, -2m, 0m), 2m, 12m)' 1m3 0.2
-deep 'Canyon((-10m, 0m, 0m), (10m, -1m, 0m), 0.3m, 50m)' 0.2m3 0.1
-deep 'Keyhole((-10m, 0m, 0m), (10m, -1m, 0m), 0.3m, 40m)' 0.2m3 0.1
+# Passages far deeper than wide, in which the bores do not reach each other.
+single 'Canyon((-25m, 0m, 0m), (25m, -2m, 0m), 2m, 20m)' 1m3 0.2
+single 'Keyhole((-25m, 0m, 0m), (25m, -2m, 0m), 2m, 12m)' 1m3 0.2
+single 'Canyon((-10m, 0m, 0m), (10m, -1m, 0m), 0.3m, 50m)' 0.2m3 0.1
+single 'Keyhole((-10m, 0m, 0m), (10m, -1m, 0m), 0.3m, 40m)' 0.2m3 0.1
+# Passages that are long or swing widely, near and as they are derived for cells of half a metre.
+for cell in 0.3 0.5; do
+  single 'Tube((-330m, 0m, 0m), (330m, -4m, 10m), 2m)' 1m3 $cell
+  single 'Keyhole((-330m, 0m, 0m), (330m, -4m, 10m), 2m, 5m)' 1m3 $cell
+  single 'Canyon((-330m, 0m, 0m), (330m, -4m, 10m), 2m, 8m)' 1m3 $cell
+  single 'Tube((-60m, 0m, 0m), (60m, -4m, 10m), 0.6m, 60m)' 1m3 $cell
+  single 'Canyon((-60m, 0m, 0m), (60m, -4m, 10m), 1m, 5m, 60m)' 1m3 $cell
+done
 
 # Negative test: the check must detect a hall that is cut off, and balls that float two metres below the ceilings.
 sed -e '/karst.Passage(/d' -e '/^expect /d' "$SOURCE/samples/grammars/cave.sgm" >cut_off.sgm
